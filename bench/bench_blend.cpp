@@ -19,7 +19,7 @@ std::vector<vec3> directions_of(const Workload& work) {
   return probe_ray_directions(settings.rays_per_probe, 0, settings.seed);
 }
 
-/// Irradiance: the product alone.
+/// Irradiance: only the product.
 void blend_irradiance(benchmark::State& state) {
   const Workload& work = workload();
   const BlendMatrix blend(work.field.settings().irradiance_texels, 1.0f, directions_of(work));
@@ -44,7 +44,7 @@ void blend_irradiance(benchmark::State& state) {
   state.counters["probes"] = static_cast<double>(probes);
 }
 
-/// Distances: the product, and storing what it yields.
+/// Distances: the product, and storing the result.
 void blend_distances_of_all_probes(benchmark::State& state) {
   const Workload& work = workload();
   const FieldSettings& settings = work.field.settings();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole frame by passes.
+// The passes of a whole frame.
 #include <map>
 
 #include "bench/stage.h"

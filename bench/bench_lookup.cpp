@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looking the field up at every pixel of a picture, beside tracing as many primary rays.
+// Lookups of the field at every pixel of a picture, compared to tracing as many primary rays.
 #include <atomic>
 #include <numeric>
 
@@ -39,7 +39,7 @@ void lookup(benchmark::State& state) {
 
 BENCHMARK(lookup)->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);
 
-/// The same with rays where distances are in doubt, beside the plain lookup.
+/// Lookups with hybrid visibility, compared to the plain lookup.
 void lookup_hybrid(benchmark::State& state) {
   const Workload& work = workload();
   const ProbeStore& store = store_of(work.field);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Indirect light from reflective shadow maps, side by side in one run: the plain gather, the
-// interleaved one restructured and not, and what each stage costs. LAMBENT_BENCH_SCENE=cornell-spot
-// or Sponza's path; the picture has 1920 x 1080 pixels unless LAMBENT_BENCH_RSM_SIZE=WxH says
-// otherwise.
+// Indirect light from reflective shadow maps, compared in one run: the plain gather, the
+// interleaved one with and without restructuring, and the cost of each stage.
+// LAMBENT_BENCH_SCENE=cornell-spot or Sponza's path; the picture has 1920 x 1080 pixels unless
+// LAMBENT_BENCH_RSM_SIZE=WxH says otherwise.
 #include <array>
 #include <map>
 
@@ -21,7 +21,7 @@ RsmSettings with_layout(RsmLayout layout) {
   return settings;
 }
 
-/// Times of one variant: buffers are kept from frame to frame, as in an engine.
+/// Times of one variant; buffers are reused from frame to frame, as in an engine.
 struct Variant {
   explicit Variant(const RsmSettings& chosen) : settings(chosen) {}
   void run(const RsmWorkload& work) {
@@ -30,12 +30,12 @@ struct Variant {
     double sum = 0.0;
     for (const PassTime& pass : result.passes) {
       passes[pass.name].add(pass.ms);
-      // Choosing lights is the same for all, and belongs to the making of the maps
+      // Choosing texels is the same for all variants, and counts as part of rendering the maps
       if (pass.name != "rsm.choose") sum += pass.ms;
     }
     total.add(sum);
   }
-  /// Restructuring the picture included.
+  /// Includes restructuring the picture.
   double gathering() const { return passes.at("rsm.gather").value(); }
   RsmSettings settings;
   RsmGatherer gatherer;
@@ -44,8 +44,8 @@ struct Variant {
   Median total;
 };
 
-/// The plain gather against the interleaved one in each layout. The first run of each is not
-/// counted: it makes the buffers.
+/// The plain gather and the interleaved one in each layout. The first run of each is not counted,
+/// since it allocates the buffers.
 void rsm(benchmark::State& state) {
   const RsmWorkload& work = rsm_workload();
   Variant plain(plain_gather()), restructured(with_layout(RsmLayout::restructured)),
@@ -72,7 +72,7 @@ void rsm(benchmark::State& state) {
   state.counters["full_over_restructured"] = full.gathering() / restructured.gathering();
 }
 
-/// Total of one variant of the settings, for the plot.
+/// Total time of one variant of the settings, for the plot.
 void measure(benchmark::State& state, const RsmWorkload& work, const RsmSettings& settings) {
   Variant variant(settings);
   variant.run(work);

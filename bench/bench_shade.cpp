@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From hits to surfels: surfaces, direct light with its shadow rays, and where surfels look the
-// field up.
+// From hits to surfels: surfaces, direct light with its shadow rays, and lookup weights.
 #include "bench/workload.h"
 #include "field/field_access.h"
 #include "field/probes/probe_store.h"

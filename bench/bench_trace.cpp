@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tracing alone: the floor that the passes are measured against.
+// Tracing alone: the lower bound to which passes are compared.
 #include "bench/workload.h"
 
 namespace lambent::bench {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A full update of the field, beside nothing but the tracing of its very rays. Both are repeated in
-// turn, so that noise of the machine meets both; ratios are medians over repetitions.
+// A full update of the field, compared to tracing exactly its rays. Both alternate, so that noise
+// of the machine affects both; ratios are medians over repetitions.
 #include "bench/workload.h"
 
 namespace lambent::bench {

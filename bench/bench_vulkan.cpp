@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field's passes on a Vulkan device: blending what rays brought into 4,096 probes, and looking
-// the field up at every pixel of a picture.
+// The field's passes on a Vulkan device: blending rays into 4,096 probes, and lookups at every
+// pixel of a picture.
 #include <algorithm>
 #include <ctime>
 #include <limits>
@@ -25,7 +25,7 @@ constexpr int kRepetitions = 15;
 constexpr int kRays = 144;
 constexpr glm::ivec3 kProbeCount{16, 16, 16};
 
-/// Null where there is none.
+/// The device; null if there is none.
 std::shared_ptr<vulkan::Device> shared_device() {
   static const auto opened = vulkan::open_device();
   return opened ? *opened : nullptr;
@@ -34,7 +34,7 @@ const vulkan::Device* device() {
   return shared_device().get();
 }
 
-/// Times what is recorded, once it has run for the first time.
+/// Times recorded commands, after one run that is not counted.
 template <class Record>
 void time_on_device(benchmark::State& state, Record record) {
   device()->run(record);
@@ -50,7 +50,7 @@ void time_on_device(benchmark::State& state, Record record) {
     least = std::min(least, elapsed);
     least_busy = std::min(least_busy, busy);
   }
-  // A device that is the processor: what it would take were nothing else running
+  // For a software device, the time that it would take if nothing else were running
   if (description(*device()).software) {
     state.counters["busy_ms"] = least_busy / std::thread::hardware_concurrency();
   }
@@ -59,7 +59,7 @@ void time_on_device(benchmark::State& state, Record record) {
   state.SetLabel(description(*device()).name);
 }
 
-/// 4,096 probes with tiles as large as the published ones, and what their rays met.
+/// 4,096 probes with tiles of the published size, and the hits of their rays.
 struct ProbeBlend {
   explicit ProbeBlend(const FieldSettings& settings)
       : store(still_grid(fit_grid(settings, open_bounds(workload().world)).value()), settings),
@@ -99,7 +99,7 @@ struct ProbeBlend {
     static ProbeBlend blend(settings());
     return blend;
   }
-  /// The tiles that a field has by default.
+  /// Tiles of the default size.
   static ProbeBlend& usual() {
     static ProbeBlend blend([] {
       FieldSettings usual = settings();
@@ -122,7 +122,7 @@ struct ProbeBlend {
   DeviceProbes list;
 };
 
-/// Irradiance and distances, from rays to encoded tiles: all but gathering light at surfels.
+/// Irradiance and distances, from rays to encoded tiles, without gathering light at surfels.
 void vulkan_blend(benchmark::State& state, ProbeBlend& (*blend_of)()) {
   if (device() == nullptr) return state.SkipWithError("no Vulkan device");
   ProbeBlend& blend = blend_of();
@@ -143,7 +143,7 @@ void vulkan_blend_usual_tiles(benchmark::State& state) {
   vulkan_blend(state, ProbeBlend::usual);
 }
 
-/// Once round: light gathered at surfels, and what probes receive of it.
+/// One iteration of the solve: gathering light at surfels, and blending it into probes.
 void vulkan_solve(benchmark::State& state) {
   if (device() == nullptr) return state.SkipWithError("no Vulkan device");
   ProbeBlend& blend = ProbeBlend::usual();
@@ -172,7 +172,7 @@ void vulkan_lookup(benchmark::State& state) {
   state.counters["lookups"] = static_cast<double>(queries.size());
 }
 
-/// The same, where rays decide which probes are seen.
+/// Lookups with visibility by rays.
 void lookup_by_rays(benchmark::State& state, Visibility visibility) {
   if (device() == nullptr) return state.SkipWithError("no Vulkan device");
   const Workload& work = workload();

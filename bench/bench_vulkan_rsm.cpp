@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interleaved gather on a Vulkan device, by its timestamps: against the plain gather, and
-// against the same interleaved pattern read from full-resolution buffers. The scene and size are
-// those of bench_rsm.cpp.
+// The interleaved gather on a Vulkan device, timed by its timestamps and compared to the plain
+// gather, and to the same interleaved pattern read from full-resolution buffers. The scene and size
+// are those of bench_rsm.cpp.
 #include <array>
 #include <map>
 
@@ -17,7 +17,7 @@ namespace {
 constexpr int kRepetitions = 7;
 constexpr std::uint32_t kTimedPasses = 8;
 
-/// Times of one variant; its lights are chosen once.
+/// Times of one variant; its texels are chosen once.
 class Variant {
  public:
   Variant(const vulkan::Device& device, const RsmWorkload& work, const RsmSettings& settings)
@@ -36,7 +36,7 @@ class Variant {
     }
     total.add(sum);
   }
-  /// Forgets times, the first of which are those of filling caches and making buffers.
+  /// Discards times so far, which include filling caches and creating buffers.
   void forget() {
     passes.clear();
     total = {};

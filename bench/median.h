@@ -7,8 +7,7 @@
 
 namespace lambent::bench {
 
-/// Numbers of repetitions; their median is shown, which one repetition that another program
-/// disturbed does not move.
+/// The median of repeated measurements, which a single disturbed repetition does not affect.
 class Median {
  public:
   void add(double value) { values_.push_back(value); }

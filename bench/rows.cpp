@@ -13,7 +13,7 @@ int run_rows(const char* program, const Rows& rows, int argc, char** argv) {
     std::fprintf(stderr, "\n");
     return 2;
   }
-  // Rows take minutes: each line is to be seen when it is there
+  // Flush each line, since rows take minutes
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   try {
     for (int i = 1; i < argc; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What benches of reflective shadow maps work on.
+// The workload of benches of reflective shadow maps.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,7 +9,7 @@
 
 namespace lambent::bench {
 
-/// What the camera of workload() sees, and the maps of all lights.
+/// The view of the camera of workload(), and the maps of all lights.
 struct RsmWorkload {
   explicit RsmWorkload(const glm::ivec2& picture);
   RsmView view() const { return {size.x, size.y, positions, normals, depths}; }
@@ -20,7 +20,7 @@ struct RsmWorkload {
   std::vector<ReflectiveShadowMap> maps;
 };
 
-/// Of 1920 x 1080 pixels, unless LAMBENT_BENCH_RSM_SIZE=WxH says otherwise.
+/// The workload with 1920 x 1080 pixels, or the size in LAMBENT_BENCH_RSM_SIZE=WxH.
 RsmWorkload& rsm_workload();
 
 }  // namespace lambent::bench

@@ -14,7 +14,7 @@ bool has_light(const Scene& scene) {
                      [](const Material& m) { return m.emission != glm::vec3(0.0f); });
 }
 
-/// One sun and a sky, as in the project's table of speeds.
+/// Adds a sun and a sky, as in the project's table of speeds.
 void light_up(Scene& scene) {
   Light sun;
   sun.name = "sun";

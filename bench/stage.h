@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What benches and measurements share: scenes that have light and a camera.
+// Common parts of benches and measurements: scenes with light and a camera.
 #pragma once
 
 #include <stdexcept>
@@ -11,7 +11,7 @@
 
 namespace lambent::bench {
 
-/// What must be there for a bench to go on. Throws std::runtime_error where it is not.
+/// The value of a result. Throws std::runtime_error if it is an error.
 template <class Value>
 Value value_or_throw(Expected<Value> result) {
   if (!result) throw std::runtime_error(result.error().message());
@@ -21,8 +21,8 @@ inline void value_or_throw(const Expected<void>& result) {
   if (!result) throw std::runtime_error(result.error().message());
 }
 
-/// A built-in scene or a file; where that brings no light, under a sun and a sky, and where it
-/// brings no camera, with one that looks along its length from near one end.
+/// Opens a built-in scene or a file. If it has no light, adds a sun and a sky; if it has no camera,
+/// adds one that looks along its length from near one end.
 Scene open_stage(const std::string& name);
 
 }  // namespace lambent::bench

@@ -23,7 +23,7 @@
 namespace lambent::bench {
 namespace {
 
-constexpr std::size_t kRaysPerTask = 1152;  // as eight probes trace together
+constexpr std::size_t kRaysPerTask = 1152;  // as many as eight probes trace together
 constexpr int kSettlingUpdates = 2;
 
 }  // namespace
@@ -63,8 +63,8 @@ UpdateRays record_update_rays(const Workload& work, int update) {
   const SolidSides sides = find_solid_sides(work.world, place_grids(store));
   const ShadeHitsSettings shading = surfel_shading(settings, set, &sides);
 
-  // Shade each probe's hits for the sake of the shadow rays
-  const std::vector<VolumeRole> roles(1);  // the field's own grid alone
+  // Shade each probe's hits to record the shadow rays
+  const std::vector<VolumeRole> roles(1);  // only the field's own grid
   const std::vector<int> probes = schedule_all(store, roles, statuses_of(work.field), settings,
                                                static_cast<std::uint32_t>(update))
                                       .probes;
@@ -103,7 +103,7 @@ std::vector<Ray> primary_rays(const Workload& work) {
 std::vector<FieldQuery> pixel_queries(const Workload& work) {
   std::vector<FieldQuery> queries =
       visible_points(work.world, work.world.scene().cameras.front(), kWidth, kHeight).value();
-  // A pixel that shows the sky costs as much as any other
+  // Add default queries in place of pixels that show the sky, which cost as much as others
   queries.resize(static_cast<std::size_t>(kWidth) * kHeight);
   return queries;
 }

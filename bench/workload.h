@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all benches work on: a scene, a field of the default settings that has settled a little, and
-// the rays of its updates.
+// The workload of all benches: a scene, a field with default settings after some updates, and the
+// rays of its updates.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -19,7 +19,7 @@
 
 namespace lambent::bench {
 
-// The picture that primary rays and lookups are measured on.
+// Size of the picture for measurements of primary rays and lookups.
 inline constexpr int kWidth = 1280, kHeight = 720;
 
 struct Workload {
@@ -32,29 +32,29 @@ struct Workload {
   IrradianceField field;
 };
 
-/// The atrium, or the scene that the environment variable LAMBENT_BENCH_SCENE names; where that
-/// brings no light, under a sun and a sky. Throws where it cannot be read.
+/// The atrium, or the scene that the environment variable LAMBENT_BENCH_SCENE names. If it has no
+/// light, a sun and a sky are added. Throws where it cannot be read.
 Workload& workload();
 
 /// The first update's rays of all probes, traced.
 TraceGroup trace_all_probes(const Workload& work);
 
-/// Rays grouped as the passes trace them.
+/// Rays, grouped as the passes trace them.
 struct UpdateRays {
   std::vector<Ray> probe_rays;
   std::vector<Ray> shadow_rays;
 };
 
-/// The very closest-hit and shadow rays that update number `update` of the field traces.
+/// Exactly the closest-hit and shadow rays that update number `update` of the field traces.
 UpdateRays record_update_rays(const Workload& work, int update);
 
-/// Primary rays through the middle of each pixel of the picture.
+/// Primary rays through the centre of each pixel of the picture.
 std::vector<Ray> primary_rays(const Workload& work);
 
-/// What the camera sees of the scene, as points to look the field up at.
+/// The points that the camera sees, as queries of the field.
 std::vector<FieldQuery> pixel_queries(const Workload& work);
 
-/// Wall-clock time [ms] of nothing but tracing, on all cores.
+/// Wall-clock time [ms] of tracing alone, on all cores.
 double time_closest_hits(const Workload& work, std::span<const Ray> rays, std::vector<Hit>& hits);
 double time_occlusions(const Workload& work, std::span<const Ray> rays,
                        std::vector<std::uint8_t>& occluded);

@@ -10,8 +10,8 @@ namespace {
 constexpr float kRightAngle = 1.5707963268f;  // [rad]
 
 /// An orthographic camera half a metre above the unit square on y = 0 (corners 0 and 1), looking
-/// down on exactly that square: +X is right, -Z is up. What faces or flanks the square stays out of
-/// the picture.
+/// down on exactly that square: +X is right, -Z is up. Surfaces that face or flank the square are
+/// outside the picture.
 Camera camera_on_unit_square() {
   Camera camera;
   camera.name = "receiver";
@@ -24,8 +24,8 @@ Camera camera_on_unit_square() {
   return camera;
 }
 
-/// A white unit square on the ground and a black one that emits radiance 1: the mean radiance that
-/// the first reflects is the form factor between the two.
+/// A white unit square on the ground and a black one that emits radiance 1. The mean radiance that
+/// the white square reflects is the form factor between the two.
 AnimatedScene make_squares(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
                            const glm::vec3& d) {
   Scene scene;
@@ -67,7 +67,7 @@ AnimatedScene make_cube() {
   lamp.name = "centre";
   lamp.intensity = glm::vec3(kIntensity);
   scene.lights.push_back(lamp);
-  // From one wall to the one across, which a right angle just frames from the middle of the room.
+  // Views the opposite wall, which from the middle of the room would just fill a right angle.
   add_camera(scene, "wall", {0.0f, 0.0f, kHalfEdge - kEyeToWall}, {0.0f, 0.0f, -kHalfEdge},
              kRightAngle, 1.0f);
   return {std::move(scene), {}};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motion beside a scene: lambent::Scene is a moment, these tracks say how its nodes go on.
+// The motion of a scene: lambent::Scene is its state at one moment, and tracks describe how its
+// nodes move.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,7 +10,7 @@
 
 namespace lambent::scenes {
 
-/// Where a node is at a moment. Between keyframes, positions are interpolated linearly and
+/// The transform of a node at a time. Between keyframes, positions are interpolated linearly and
 /// rotations spherically. Nodes that move have no scale.
 struct Keyframe {
   float time = 0.0f;                           ///< [s], ascending within a track.
@@ -17,7 +18,7 @@ struct Keyframe {
   glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};  ///< Unit; (w, x, y, z).
 };
 
-/// The way of one instance or light. A light's direction is its node's -Z.
+/// The motion of one instance or light. A light's direction is its node's -Z.
 struct Track {
   enum class Target { instance, light };
   Target target = Target::instance;

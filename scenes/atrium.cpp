@@ -14,7 +14,7 @@ namespace lambent::scenes {
 namespace atrium {
 namespace {
 
-/// What is added to the scene for one pattern.
+/// The textures and the material of one pattern.
 struct Order {
   const char* name;
   int size;
@@ -100,7 +100,7 @@ Palette add_palette(Scene& scene, int texels) {
 }
 
 glm::mat4 facing_court(const glm::vec3& position) {
-  // The side on which a place lies is where it touches its column line.
+  // Find the side of the court by the column line on which the place lies.
   float turn = 0.0f;
   if (position.z >= kCourtZ)
     turn = kPi;
@@ -142,8 +142,9 @@ void add(Scene& scene, MeshBuilder& builder, const char* name, const Finish& fin
 
 namespace {
 
-/// Where sunlight travels at an hour angle from noon [rad]: a circle that culminates 66 degrees
-/// high over the court's -Z side, so that mornings light the +X end and noon the +Z arcade.
+/// The direction in which sunlight travels at an hour angle from noon [rad]. The sun's circle
+/// culminates at 66 degrees over the court's -Z side, so that mornings light the +X end and noon
+/// the +Z arcade.
 glm::vec3 sunlight(float hour_angle) {
   constexpr float kNoonElevation = 1.152f;  // [rad]
   const glm::vec3 noon(0.0f, std::sin(kNoonElevation), -std::cos(kNoonElevation));

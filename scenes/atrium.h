@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inside of the atrium: its measures, materials and parts. Scenes outside use make_atrium alone.
+// Internals of the atrium: its dimensions, materials and parts. Other files use only make_atrium.
 //
 // A court of 5 x 3 bays lies at the origin, its long side along x. Two storeys of arcades surround
 // it; behind them run aisles, vaulted below and beamed above. A door in the middle of the +X wall
@@ -44,7 +44,7 @@ inline constexpr MeshBuilder::Arch kLowerArch{0.5f * kBay, kLowerSpring,       k
 inline constexpr MeshBuilder::Arch kUpperArch{0.5f * kBay, kUpperSpring,       kUpperTop, 1.24f,
                                               1.14f,       1.6f * kHalfArcade, 20,        false};
 
-/// A material and how many metres one tile of its textures covers.
+/// A material, and the size of one tile of its textures [m].
 struct Finish {
   int material = 0;
   float metres_a_tile = 1.0f;
@@ -74,8 +74,7 @@ void add_side_room(Scene& scene, const Palette& palette);
 /// The door leaf with its ironwork, and their motion.
 void add_door(AnimatedScene& made, const Palette& palette);
 
-/// A place on the column lines: turned so that its +Z looks at the court and its X runs along the
-/// arcade.
+/// The transform to a place on the column lines, with +Z towards the court and X along the arcade.
 glm::mat4 facing_court(const glm::vec3& position);
 
 /// Middles of all bays of the arcade, or feet of all its columns, at height 0, in order around the
@@ -83,10 +82,10 @@ glm::mat4 facing_court(const glm::vec3& position);
 std::vector<glm::vec3> bay_middles();
 std::vector<glm::vec3> column_feet();
 
-/// Takes what the builder has as one more mesh of the scene; returns its index.
+/// Adds the builder's triangles to the scene as a mesh; returns its index.
 int add_mesh(Scene& scene, MeshBuilder& builder, const char* name, const Finish& finish);
 
-/// The same, with one instance where it was built.
+/// Adds the builder's triangles as a mesh, with one instance.
 void add(Scene& scene, MeshBuilder& builder, const char* name, const Finish& finish);
 
 }  // namespace lambent::scenes::atrium

@@ -14,7 +14,7 @@ using B = MeshBuilder;
 
 constexpr float kRodHeight = 2.84f;  // [m]
 constexpr float kHem = kAisleFloor + 0.06f;
-constexpr float kFullness = 1.9f;  // metres of cloth a metre of rod
+constexpr float kFullness = 1.9f;  // metres of cloth per metre of rod
 constexpr int kCellsAFold = 8, kCurtainRows = 9;
 
 struct Curtain {
@@ -24,7 +24,7 @@ struct Curtain {
   float variety;  // phase of its irregularities [rad]
 };
 
-/// How much of the rod's width a tied curtain takes at a height, 0 to 1.
+/// Share of the rod's width that a tied curtain takes at a height, 0 to 1.
 float tied_width(float y) {
   constexpr float kTie = 1.3f, kAtTie = 0.28f, kAtHem = 0.46f;
   const auto ease = [](float x) { return x * x * (3.0f - 2.0f * x); };
@@ -94,8 +94,7 @@ void add_curtains(Scene& scene, const Palette& palette) {
   builder.bar({-1.28f, kRodHeight + 0.02f, 0.0f}, {1.28f, kRodHeight + 0.02f, 0.0f}, 0.018f, 8);
   const int rod = add_mesh(scene, builder, "rod", palette.iron);
 
-  // Which bay of bay_middles() has what on its left and right as seen from the court; -1 is
-  // nothing.
+  // The curtains on the left and right of a bay of bay_middles(), as seen from the court; -1: none.
   struct Hung {
     int bay, left, right;
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What carries the atrium: floors, walls, arcades, vaults, ceiling and roof.
+// The atrium's structure: floors, walls, arcades and vaults.
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -12,10 +12,10 @@ namespace {
 
 using B = MeshBuilder;
 
-constexpr float kKerb = 0.5f;   // the step reaches this far to both sides of the column line [m]
+constexpr float kKerb = 0.5f;   // half the width of the step, to both sides of the column line [m]
 constexpr float kBase = -0.4f;  // underside of the ground [m]
 
-/// A level rectangle that looks up.
+/// A horizontal rectangle that faces up.
 void floor(MeshBuilder& builder, float x0, float x1, float z0, float z1, float y) {
   builder.quad({x0, y, z1}, {x1, y, z1}, {x1, y, z0}, {x0, y, z0});
 }
@@ -28,13 +28,13 @@ void ring(MeshBuilder& builder, glm::vec2 inner, glm::vec2 outer, float y) {
   floor(builder, -outer.x, -inner.x, -inner.y, inner.y, y);
 }
 
-/// The four corners of a rectangle about the origin, in the order in which the court is to the
-/// right.
+/// The four corners of a rectangle about the origin, ordered so that the court is to the right of
+/// the path.
 std::array<glm::vec3, 4> around_court(float x, float z, float y) {
   return {glm::vec3(x, y, z), glm::vec3(-x, y, z), glm::vec3(-x, y, -z), glm::vec3(x, y, -z)};
 }
 
-/// Four boxes that make a ring; faces where they touch are left out.
+/// Four boxes that form a ring; faces where they touch are omitted.
 void box_ring(MeshBuilder& builder, glm::vec2 inner, glm::vec2 outer, float y0, float y1) {
   const unsigned ends = B::kBack | B::kFront;
   builder.box({-outer.x, y0, inner.y}, {outer.x, y1, outer.y});

@@ -13,7 +13,7 @@ namespace {
 
 struct Recipe {
   std::string_view name;
-  std::string_view what;  // there is to see
+  std::string_view what;  // description of what is seen
   AnimatedScene (*make)();
 };
 

@@ -20,8 +20,8 @@ constexpr glm::vec3 kGreen{0.14f, 0.45f, 0.091f};
 constexpr glm::vec3 kLampReflectance{0.78f};
 constexpr glm::vec3 kLampRadiance{17.0f, 12.0f, 4.0f};
 
-/// In place of the lamp: about its power, in a cone that lights the floor, both blocks and the feet
-/// of the walls, so that the upper half of the box has indirect light alone.
+/// Replaces the lamp: about its power, in a cone that lights the floor, both blocks and the bottom
+/// of the walls, so that the upper half of the box has indirect light only.
 constexpr glm::vec3 kSpotIntensity{60.0f, 52.0f, 40.0f};  // [W/sr]
 constexpr float kSpotInnerCone = 0.52359878f;             // 30 degrees [rad]
 constexpr float kSpotOuterCone = 0.69813170f;             // 40 degrees [rad]
@@ -43,13 +43,13 @@ Mesh quads(std::initializer_list<Corners> list, const char* name, int material) 
   return builder.take(name, material);
 }
 
-/// The spheres' reflectance, and how they lie: in two rows of three, none touching another.
+/// The spheres' reflectance and arrangement: two rows of three, without contact.
 constexpr glm::vec3 kMetal{0.9f, 0.88f, 0.85f};
 constexpr std::array kRoughnesses{0.0f, 0.1f, 0.2f, 0.4f, 0.6f, 0.8f};
 constexpr float kSphereRadius = 75.0f;  // [mm]
 constexpr int kSphereSegments = 96, kSphereSteps = 48;
 
-/// The box without its blocks, its lamp sending out this radiance.
+/// The box without its blocks, with this radiance of the lamp.
 Scene make_box(const glm::vec3& lamp_radiance) {
   Scene scene;
   const int white = add_lambert(scene, "white", kWhite);
@@ -61,7 +61,7 @@ Scene make_box(const glm::vec3& lamp_radiance) {
       scene,
       quads({Corners{mm(552.8f, 0, 0), mm(0, 0, 0), mm(0, 0, 559.2f), mm(549.6f, 0, 559.2f)}},
             "floor", white));
-  // The ceiling leaves a hole that the light fills: before, behind and to both sides of it.
+  // The ceiling has a hole for the lamp: four parts before, behind and to both sides of it.
   const float h = 548.8f;
   add_object(scene,
              quads({Corners{mm(556, h, 0), mm(556, h, 227), mm(0, h, 227), mm(0, h, 0)},
@@ -106,7 +106,7 @@ void add_blocks(Scene& scene) {
             "tall_block", white));
 }
 
-/// A metal sphere of smooth normals.
+/// A metal sphere with smooth normals.
 void add_sphere(Scene& scene, const glm::vec3& centre, float roughness) {
   std::array<char, 32> name;
   std::snprintf(name.data(), name.size(), "roughness_%.1f", roughness);

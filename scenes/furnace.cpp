@@ -30,8 +30,8 @@ AnimatedScene make_furnace() {
   builder.room(kRoomMin, kRoomMax);
   add_object(scene, builder.take("room", glowing));
 
-  // The pillar reaches from floor to ceiling and the crate stands on the floor: hidden faces are
-  // not made.
+  // The pillar reaches from floor to ceiling and the crate stands on the floor, so hidden faces are
+  // omitted.
   builder.box({1.2f, kRoomMin.y, -1.1f}, {1.6f, kRoomMax.y, -0.7f},
               MeshBuilder::kAllFaces & ~(MeshBuilder::kTop | MeshBuilder::kBottom));
   add_object(scene, builder.take("pillar", glowing));

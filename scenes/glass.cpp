@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A room that is lit through a pane: what is right of it has no light but what the pane lets pass.
+// A room that is lit through a pane: the part to the right of the pane is lit only by transmitted
+// light.
 #include <cmath>
 #include <vector>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The binary glTF container: a JSON document and one buffer that its accessors look into.
+// The binary glTF container: a JSON document and one buffer to which its accessors refer.
 #pragma once
 
 #include <cstddef>

@@ -105,7 +105,7 @@ class Document {
     return wrap == Wrap::mirrored_repeat ? kMirroredRepeat : kClampToEdge;
   }
 
-  /// The index of an object in a list of the root, added where it is not there yet.
+  /// The index of an object in a list of the root; the object is added if it is missing.
   int index_in(const char* list, const json& object) {
     json& objects = root_[list];
     for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -162,7 +162,7 @@ class Document {
     root_["materials"].push_back(std::move(out));
   }
 
-  /// glTF's factor ends at 1; what is brighter goes into the strength.
+  /// glTF's factor is at most 1, so brighter emission is written as its strength.
   void write_emission(const Material& m, json& out) {
     const float brightest = glm::max(m.emission.x, glm::max(m.emission.y, m.emission.z));
     if (brightest <= 0.0f) return;
@@ -196,7 +196,8 @@ class Document {
     transmission = {{"transmissionFactor", m.transmission}};
     write_texture(transmission, "transmissionTexture", m.transmission_texture);
     if (!m.bounds_volume) return;
-    // Absorption is what is left after one metre; any thickness but 0 says that there is a volume
+    // The attenuation colour is the transmittance over one metre; any thickness above 0 declares a
+    // volume
     use(out, "KHR_materials_volume") = {{"thicknessFactor", 1.0f},
                                         {"attenuationDistance", 1.0f},
                                         {"attenuationColor", array(glm::exp(-m.absorption))}};
@@ -222,7 +223,7 @@ class Document {
     root_["meshes"].push_back({{"name", mesh.name}, {"primitives", {primitive}}});
   }
 
-  /// How an instance or light moves, or null. What moves must be written as TRS.
+  /// The track of an instance or light, or null. Moving nodes must be written as TRS.
   const Track* track_of(Track::Target target, std::size_t index) const {
     for (const Animation& animation : animations_) {
       for (const Track& track : animation.tracks) {

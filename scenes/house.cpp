@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sixteen rooms in four rows of four, with doorways between neighbours and a lamp in each: what one
-// lamp does is felt in its own room and through doors, less with each, and nowhere else.
+// Sixteen rooms in four rows of four, with doorways between neighbours and a lamp in each. A lamp
+// affects its own room, and others only through doors, less with each door.
 #include <string>
 
 #include "scenes/mesh_builder.h"

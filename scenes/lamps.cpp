@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A street at night under a thousand lamps on cables, half of them spots, between houses with a
-// thousand lanterns of a hundred emissive triangles each: what direct light of many sources costs
-// and how noisy it is.
+// thousand lanterns of a hundred emissive triangles each: a test of the cost and the noise of
+// direct light from many sources.
 #include <cmath>
 #include <string>
 
@@ -73,7 +73,7 @@ void add_lanterns(Scene& scene, float side, const int (&meshes)[3]) {
 void add_lamps(Scene& scene) {
   for (int cable = 0; cable < kCables; ++cable) {
     for (int i = 0; i < kLampsOnCable; ++i) {
-      // A cable hangs about as a parabola does
+      // A hanging cable is approximately a parabola
       const float s = (static_cast<float>(i) + 0.5f) / kLampsOnCable;
       const float sag = kSag * 4.0f * s * (1.0f - s);
       Light lamp;

@@ -11,7 +11,7 @@
 namespace lambent::scenes {
 namespace {
 
-/// Triangles with less area than this are degenerate corners of grids, not surfaces [m^2].
+/// Triangles with less area than this are degenerate corners of grids [m^2].
 constexpr float kNoArea = 1e-10f;
 
 /// Tangents along the direction in which u grows, from all triangles around a vertex. Textures are

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles from a few kinds of surface. All helpers keep three promises: front faces run
+// Triangles from a few kinds of surface. All functions guarantee the following: front faces run
 // counter-clockwise, texture coordinates are metres (u to the right and v down as seen from the
-// front, so that nothing is mirrored), and neighbouring pieces share positions bit by bit where
-// they share an edge.
+// front, so that nothing is mirrored), and neighbouring pieces have bit-identical positions along
+// shared edges.
 #pragma once
 
 #include <functional>
@@ -16,15 +16,16 @@ namespace lambent::scenes {
 
 class MeshBuilder {
  public:
-  /// Moves all that is added from now on.
+  /// Sets the transform of everything that is added from now on.
   void set_transform(const glm::mat4& transform);
 
   /// A flat quadrilateral: lower left, lower right, upper right, upper left as seen from the front.
-  /// Texture coordinates are the position's projections on the plane's axes, so that patterns run
-  /// on across pieces.
+  /// Texture coordinates are the position's projections on the plane's axes, so that patterns
+  /// continue across pieces.
   void quad(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d);
 
-  /// The same where the lower edge does not run along the pattern: u grows along `right` (unit).
+  /// A flat quadrilateral whose texture coordinate u grows along `right` (unit) instead of along
+  /// the lower edge.
   void quad(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d,
             const glm::vec3& right);
 
@@ -53,16 +54,16 @@ class MeshBuilder {
   void surface(int columns, int rows, bool closed,
                const std::function<SurfacePoint(float s, float t)>& at);
 
-  /// Bends of a lathe's profile above this stay sharp [rad].
+  /// Corners of a lathe's profile above this angle are sharp edges [rad].
   static constexpr float kCreaseAngle = 0.6f;
-  /// A body of revolution about the vertical through `foot`. `profile` lists (radius, height), so
-  /// that the body lies to the left of the way (upwards on the outside). Corners sharper than
-  /// kCreaseAngle are kept.
+  /// A body of revolution about the vertical through `foot`. `profile` lists (radius, height), with
+  /// the body to the left of the path (upwards on the outside). Corners sharper than kCreaseAngle
+  /// remain sharp.
   void lathe(const glm::vec3& foot, std::span<const glm::vec2> profile, int segments);
 
   /// A wall with an arched opening, in the plane z = 0: from x = -half_width to half_width, from
-  /// `spring` up to `top`; the opening is half an ellipse. Ends and top are not made: neighbours
-  /// and slabs cover them.
+  /// `spring` up to `top`; the opening is half an ellipse. Ends and top are omitted, since
+  /// neighbours and slabs cover them.
   struct Arch {
     float half_width, spring, top;  // [m]
     float half_span, rise;          // of the opening [m]
@@ -72,8 +73,8 @@ class MeshBuilder {
   };
   void arch_panel(const Arch& arch);
 
-  /// A raised band around that opening on the wall's +Z face: `width` along the wall, `depth` proud
-  /// of it.
+  /// A raised band around that opening on the wall's +Z face: `width` along the wall, and
+  /// protruding by `depth`.
   void archivolt(const Arch& arch, float width, float depth);
 
   /// A moulding: `profile` lists (outwards, up) from the lower to the upper edge of its face,
@@ -89,7 +90,7 @@ class MeshBuilder {
 
   std::size_t triangles() const { return mesh_.triangles.size(); }
 
-  /// The mesh so far; the builder starts afresh. Texture coordinates are divided by
+  /// Returns the mesh so far, and clears the builder. Texture coordinates are divided by
   /// `metres_a_tile`.
   Mesh take(std::string name, int material, float metres_a_tile = 1.0f);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr glm::vec3 kAlongX{1.0f, 0.0f, 0.0f};
 
-/// The point of the opening's edge at a share of its way from the left springer to the right one.
+/// The point on the opening's edge at a share of the angle from the left springer to the right one.
 glm::vec3 on_arch(const MeshBuilder::Arch& arch, float share, float z, float grown = 0.0f) {
   const float angle = kPi * share;
   return {-(arch.half_span + grown) * std::cos(angle),

@@ -4,7 +4,7 @@
 namespace lambent::scenes {
 namespace {
 
-/// Does to a scene made in memory what load_scene does to one it reads.
+/// Applies load_scene's options to a scene made in memory.
 void apply(const LoadOptions& options, Scene& scene) {
   for (Material& material : scene.materials) {
     material.lambert = material.lambert || options.lambert;

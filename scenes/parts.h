@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small pieces that every built-in scene is put together from.
+// Helpers from which all built-in scenes are assembled.
 #pragma once
 
 #include <string>

@@ -17,7 +17,7 @@ float smooth(float from, float to, float x) {
   return t * t * (3.0f - 2.0f * t);
 }
 
-/// A number in [0, 1) for a lattice point and a pattern's own seed.
+/// A number in [0, 1) for a lattice point and a pattern's seed.
 float hash(int x, int y, uint seed) {
   return uniform_from_bits(hash_pcg3d(uvec3(uint(x), uint(y), seed)).x);
 }
@@ -47,7 +47,7 @@ float fractal_noise(glm::vec2 p, glm::ivec2 cells, int octaves, uint seed) {
   return sum / total;
 }
 
-/// A cell of a bond of rectangular pieces, and where in it a point lies.
+/// A cell of a bond of rectangular pieces, and the position of a point in it.
 struct Piece {
   int column, row;  // which piece, for hashing
   float edge;       // distance to the nearest joint [tiles]

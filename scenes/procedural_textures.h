@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures computed, not photographed: seamless, the same bits every time. Every pattern is a
-// function of a point of the unit square that repeats with period 1; lengths below are shares of
-// the tile.
+// Procedural textures: seamless, the same bits every time. Every pattern is a function of a point
+// of the unit square that repeats with period 1; lengths below are shares of the tile.
 #pragma once
 
 #include <functional>
@@ -12,7 +11,7 @@
 
 namespace lambent::scenes {
 
-/// What a pattern says about one point.
+/// The values of a pattern at one point.
 struct Texel {
   glm::vec3 color{0.5f};   ///< Linear reflectance, 0 to 1.
   float height = 0.0f;     ///< Relief [m].

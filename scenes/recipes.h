@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One function a built-in scene; builtin.h says what each holds.
+// One function for each built-in scene; builtin.h describes them.
 #pragma once
 
 #include "scenes/builtin.h"

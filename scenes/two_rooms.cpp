@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two rooms and a 5 cm wall: the classic test for light that leaks. Room A (x < 0) has a lamp; room
-// B gets what comes through a gap in the wall, and nothing where the wall is sealed.
+// B is lit only through a gap in the wall, and is black where the wall is sealed.
 #include "scenes/mesh_builder.h"
 #include "scenes/parts.h"
 #include "scenes/recipes.h"

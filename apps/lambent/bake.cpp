@@ -48,7 +48,7 @@ struct Options {
   double every_s = 600.0;
 };
 
-// Between two lines of progress, where there is no terminal to draw it on [s].
+// Time between two lines of progress where stderr is not a terminal [s].
 constexpr double kSecondsBetweenLines = 10.0;
 
 Expected<void> check(const Options& options) {
@@ -79,7 +79,7 @@ void tell_baked(const Options& options, const IrradianceField& field,
   tell_written(options.output, std::to_string(field.probes()) + " probes", text.data());
 }
 
-/// What a bake works with.
+/// The state of a bake.
 struct Baking {
   Scene scene;
   std::unique_ptr<World> world;
@@ -87,13 +87,13 @@ struct Baking {
   UpdateRequest request;
 };
 
-/// Reads the scene, and makes the field that is to be baked. Every process does so for itself.
+/// Reads the scene, and makes the field to be baked. Every process does so for itself.
 Expected<void> prepare(const Options& options, const Job& job, Baking& baking) {
-  // Files are the first process's alone
+  // Only the first process writes files
   if (job.leads()) {
     if (const auto fine = check(options); !fine) return fine;
   }
-  // What is wrong with the options is told before the scene is read
+  // Report wrong options before the scene is read
   if (const auto fine = field_settings(options.field, {}, options.seed, options.bounces); !fine) {
     return tl::unexpected(fine.error());
   }
@@ -126,7 +126,7 @@ Expected<void> prepare(const Options& options, const Job& job, Baking& baking) {
   return {};
 }
 
-/// Fails where another process has another scene, or other options.
+/// Fails where the scenes or options of processes differ.
 Expected<void> check_alike(const Job& job, const Baking& baking) {
   const std::vector<std::uint32_t> each =
       gather_each(job.ranks, bake_identity(*baking.field, *baking.world, baking.request.viewer_ws));
@@ -137,8 +137,8 @@ Expected<void> check_alike(const Job& job, const Baking& baking) {
               "has another scene than rank 0, or other options");
 }
 
-/// Goes on where an earlier bake was interrupted, if it was. Whether there is a checkpoint is what
-/// the first process sees.
+/// Resumes an interrupted bake, if there is a checkpoint. The first process decides whether there
+/// is one.
 Expected<void> resume(const Options& options, const Job& job, Baking& baking) {
   if (options.checkpoint.empty()) return {};
   std::error_code ignored;
@@ -161,8 +161,8 @@ Expected<void> resume(const Options& options, const Job& job, Baking& baking) {
   return {};
 }
 
-/// Returns what is done after each update: checkpoints, and where nobody watches a terminal, lines
-/// of how far the processes are.
+/// Returns the function that is called after each update: it writes checkpoints, and without a
+/// terminal, prints lines of progress.
 std::function<void(const FieldProgress&)> between_updates(const Options& options, const Job& job,
                                                           const Baking& baking, bool tells_lines) {
   auto since_checkpoint = std::make_shared<Stopwatch>();
@@ -182,20 +182,20 @@ std::function<void(const FieldProgress&)> between_updates(const Options& options
     }
     if (options.checkpoint.empty()) return;
     unsaved += since_checkpoint->lap() / kMsPerSecond;
-    // The first process's clock counts
+    // The first process's clock decides
     const bool due = unsaved >= options.every_s;
     if (gather_each<std::uint8_t>(job.ranks, due ? 1 : 0).front() == 0) return;
     unsaved = 0.0;
-    // Where that fails, so does what follows, which says why
+    // If this fails, so does the following call, which reports the cause
     if (job.leads()) (void)make_folders(options.checkpoint);
     const auto saved =
         save_checkpoint(options.checkpoint, *baking.field, *baking.world, baking.request.viewer_ws);
-    // The bake may still come to its end without
+    // The bake can still finish without a checkpoint
     if (!saved) warn(saved.error().message());
   };
 }
 
-/// Writes the baked field and what else was asked for.
+/// Writes the baked field and the other requested outputs.
 Expected<void> write(const Options& options, const Job& job, const Baking& baking,
                      const FieldProgress& reached, const nlohmann::ordered_json& stats) {
   begin_step("writing the field");
@@ -215,11 +215,11 @@ Expected<void> write(const Options& options, const Job& job, const Baking& bakin
   return {};
 }
 
-/// The most memory that this process has had so far [bytes].
+/// The peak memory of this process so far [bytes].
 std::uint64_t peak_memory() {
   struct rusage usage {};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // told in KiB
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // ru_maxrss is in KiB
 }
 
 Expected<void> bake(const Options& options, const Job& job) {

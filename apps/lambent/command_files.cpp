@@ -25,13 +25,14 @@ bool same_but_for_case(std::string_view a, std::string_view b) {
                     [&](char x, char y) { return lower(x) == lower(y); });
 }
 
-/// Where in a sequence's paths the number stands: in which directory, and between what.
+/// The position of the number in a sequence's paths: the directory, and the text before and after
+/// it.
 struct NumberedName {
   fs::path directory;
   std::string before, after;
 
   explicit NumberedName(const std::string& pattern) {
-    // Frames 0 and 1 differ in the last digit of the number alone
+    // The paths of frames 0 and 1 differ only in the last digit of the number
     const std::string zero = frame_path(pattern, 0), one = frame_path(pattern, 1);
     const auto last_digit = std::mismatch(zero.begin(), zero.end(), one.begin()).first;
     const auto end = static_cast<std::size_t>(last_digit - zero.begin()) + 1;
@@ -43,7 +44,7 @@ struct NumberedName {
     after = zero.substr(end, zero.find('/', end) - end);
   }
 
-  /// The number of the frame that a name is of, or none.
+  /// The number of the frame with this name, or none.
   std::optional<int> frame_of(const std::string& name) const {
     if (name.size() < before.size() + kFrameDigits + after.size()) return std::nullopt;
     const std::string_view text = name;
@@ -85,8 +86,8 @@ void CommandFiles::writes_frames(const std::string& pattern, int count, const st
 Expected<void> CommandFiles::check() const {
   std::vector<NamedFile> all = files_;
   for (const Frames& frames : frames_) {
-    // There may be millions: look at those that are there already, and at those that another path
-    // leads to
+    // There may be millions of frames: test only those that exist, and those to which another path
+    // leads
     const NumberedName name(frames.pattern);
     std::set<int> numbers;
     const auto look_at = [&](const fs::path& part) {

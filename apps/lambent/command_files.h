@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All files that a subcommand reads and writes, so that none is lost to another.
+// All files that a subcommand reads and writes, to prevent that one overwrites another.
 #pragma once
 
 #include <string>
@@ -10,19 +10,19 @@
 
 namespace lambent::cli {
 
-/// Told of each file before any work is done. Empty paths count for nothing.
+/// Collects the files before any work is done. Empty paths are ignored.
 class CommandFiles {
  public:
-  /// `role` is what the user knows the file by: "--field", "the scene".
+  /// `role` describes the file to the user: "--field", "the scene".
   void reads(const std::string& path, const std::string& role);
-  /// A scene's file with all that it refers to; nothing where it is a built-in one.
+  /// Adds a scene's file with all files to which it refers; none for a built-in scene.
   void reads_scene(const std::string& scene);
   void writes(const std::string& path, const std::string& role);
-  /// Pictures 0 to count - 1 of a sequence, named as frame_path does.
+  /// Adds pictures 0 to count - 1 of a sequence, named by frame_path.
   void writes_frames(const std::string& pattern, int count, const std::string& role);
 
-  /// Fails where a file would be written over another one of the command's, whatever the paths are
-  /// called (see same_file).
+  /// Fails where a file would overwrite another one of the command, however the paths are spelled
+  /// (see same_file).
   Expected<void> check() const;
 
  private:

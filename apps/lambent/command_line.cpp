@@ -14,14 +14,14 @@ namespace {
 
 /// Subcommands that later versions will have.
 constexpr const char* kPlanned[] = {"view"};
-/// Subcommands that builds without LAMBENT_STREAM have not.
+/// Subcommands that exist only in builds with LAMBENT_STREAM.
 constexpr const char* kOfStreams[] = {"serve", "connect"};
 
 bool is_one_of(const std::string& word, const std::vector<std::string>& words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// A path looks like one; what does not may be a path where there is such a file.
+/// Whether a word looks like a path, or is the name of an existing file.
 bool may_be_scene(const std::string& word) {
   std::error_code error;
   return scenes::is_name(word) || word.find_first_of("./") != std::string::npos ||
@@ -35,7 +35,7 @@ Expected<std::vector<std::string>> complete_arguments(const CLI::App& app,
   std::vector<std::string> known;
   for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
 
-  // Options of the program itself may stand first
+  // Options of the program itself may come first
   const auto first =
       std::find_if(arguments.begin(), arguments.end(), [&app](const std::string& argument) {
         return !argument.starts_with("-") || app.get_option_no_throw(argument) == nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What was typed, before it is parsed.
+// Completion of command lines, before they are parsed.
 #pragma once
 
 #include <string>
@@ -13,9 +13,9 @@ class App;
 
 namespace lambent::cli {
 
-/// The arguments of a subcommand that were meant. What begins with a scene, or with an option of a
-/// picture, is `render`; `help` and `help render` are --help. Fails on a first word that is neither
-/// a subcommand nor a scene, with the nearest one.
+/// The arguments with the implied subcommand. Arguments that begin with a scene, or with an option
+/// of a picture, get `render`; `help` and `help render` become --help. Fails on a first word that
+/// is neither a subcommand nor a scene, with the nearest one.
 Expected<std::vector<std::string>> complete_arguments(const CLI::App& app,
                                                       std::vector<std::string> arguments);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The subcommands. Each add_* declares its options on `app` and, when chosen, leaves in `run` what
-// to do.
+// The subcommands. Each add_* declares its options on `app` and, when its subcommand is chosen,
+// sets `run`.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@ class App;
 
 namespace lambent::cli {
 
-/// What the chosen subcommand does once all arguments are known to be well formed.
+/// Runs the chosen subcommand, after all arguments were found to be well formed.
 using Run = std::function<Expected<void>()>;
 
 void add_bake(CLI::App& app, Run& run);
@@ -27,7 +27,7 @@ void add_prepare(CLI::App& app, Run& run);
 void add_render(CLI::App& app, Run& run);
 void add_scenes(CLI::App& app, Run& run);
 
-// Of builds with LAMBENT_STREAM.
+// In builds with LAMBENT_STREAM only.
 void add_connect(CLI::App& app, Run& run);
 void add_serve(CLI::App& app, Run& run);
 

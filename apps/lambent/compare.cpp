@@ -38,30 +38,30 @@ struct CompareOptions {
   bool json = false;
 };
 
-/// One comparison: which layer of A with which of B, and what came of it.
+/// One comparison: the names of the layers of A and B, and the result.
 struct Comparison {
   std::string name_a, name_b;
   Metrics metrics;
 };
 
-/// Layers that are numbers, not pictures: no exposure makes sense of them.
+/// Layers that are data, not pictures, and have no exposure.
 constexpr const char* kDataLayers[] = {"normal", "position", "depth"};
 constexpr int kMaxBlock = 1 << 12;
-/// Products with what images hold are still numbers.
+/// Products with values of images must be finite.
 constexpr double kMaxScale = 1e12;
-/// Numbers that were not measured; shown as "-".
+/// A number that was not measured; printed as "-".
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 bool is_picture(const std::string& layer) {
   return std::find(std::begin(kDataLayers), std::end(kDataLayers), layer) == std::end(kDataLayers);
 }
 
-/// Files of 8 bits hold what a display shows, all others linear radiance.
+/// 8-bit files are display-encoded, all others have linear radiance.
 bool is_display_file(const std::string& path) {
   return has_ending(path, ".png") || has_ending(path, ".jpg") || has_ending(path, ".jpeg");
 }
 
-/// What --layer asks for; without it every layer that both files have.
+/// The comparison that --layer selects; without it, every layer that both files have.
 Expected<std::vector<Comparison>> choose_layers(const CompareOptions& options,
                                                 const LayeredImage& a, const LayeredImage& b) {
   std::vector<Comparison> chosen;
@@ -81,8 +81,8 @@ Expected<std::vector<Comparison>> choose_layers(const CompareOptions& options,
   return chosen;
 }
 
-/// The standard error that belongs to a layer of B: the layer of that name, or the whole picture
-/// where only one comparison is made.
+/// The standard error for a layer of B: the layer of that name, or the unnamed layer if there is
+/// only one comparison.
 Expected<const Image*> noise_of(const CompareOptions& options, const LayeredImage& noise,
                                 const std::string& layer, std::size_t comparisons) {
   if (const Image* same_name = noise.find(layer)) return same_name;
@@ -90,7 +90,7 @@ Expected<const Image*> noise_of(const CompareOptions& options, const LayeredImag
   return find_layer(options.noise_path, noise, layer);
 }
 
-// What is not finite becomes null.
+// Numbers that are not finite become null.
 using Json = nlohmann::ordered_json;
 
 void add_numbers(const Comparison& comparison, const std::string& prefix, Json& numbers) {
@@ -182,13 +182,13 @@ void print_table(const std::vector<Comparison>& comparisons, bool noise) {
   }
 }
 
-/// The file of standard errors, and how many layers share it.
+/// The file of standard errors, and the number of layers that use it.
 struct LayerNoise {
   const LayeredImage& image;
   std::size_t comparisons;
 };
 
-/// Measures one pair of layers, and adds its heat map to `pictures` where one is wanted.
+/// Compares one pair of layers, and adds its heat map to `pictures` if requested.
 Expected<void> compare_layer(const CompareOptions& options, const LayeredImage& a,
                              const LayeredImage& b, const LayerNoise& noise, Comparison& comparison,
                              std::vector<Image>& pictures) {

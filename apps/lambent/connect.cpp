@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lambent connect: pictures of a server, or in its light, in files.
+// lambent connect: writes the pictures of a server, or pictures of a scene in its light.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -67,7 +67,7 @@ Expected<stream::Hello> make_hello(const ConnectOptions& options) {
   return hello;
 }
 
-/// The camera that is asked for in place of the server's, if any.
+/// The camera that replaces the server's, if any.
 Expected<std::optional<stream::CameraInput>> make_camera(const ConnectOptions& options) {
   if (options.eye.empty() != options.target.empty()) {
     return fail(options.eye.empty() ? "--target" : "--eye", "", "--eye and --target go together");
@@ -83,7 +83,7 @@ Expected<std::optional<stream::CameraInput>> make_camera(const ConnectOptions& o
   return camera;
 }
 
-/// What pictures took, in the mean.
+/// Mean costs of pictures.
 struct Costs {
   double render_ms = 0.0, encode_ms = 0.0, bytes = 0.0;
   int pictures = 0;
@@ -103,7 +103,7 @@ struct Costs {
   }
 };
 
-/// The next picture; fails once the server ends the stream, with what it said last.
+/// The next picture. Fails once the server ends the stream, with the server's reason.
 Expected<stream::Picture> next_picture(stream::Client& client, std::chrono::milliseconds timeout) {
   const auto end = std::chrono::steady_clock::now() + timeout;
   std::string said;
@@ -140,7 +140,7 @@ Expected<void> receive_frames(const ConnectOptions& options, stream::Client& cli
     if (!decoded) return tl::unexpected(decoded.error());
     const auto told = client.send(stream::Received{picture->number, 0.0f});
     if (!told) return told;
-    if (picture->input < first_input) continue;  // of the camera before
+    if (picture->input < first_input) continue;  // from the camera before
     const std::string path = name_of_frame(options, written.size());
     if (const auto done = write_png(path, stream::to_display(*decoded)); !done) return done;
     written.push_back(path);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lambent connect was asked for.
+// The options of `lambent connect`.
 #pragma once
 
 #include <cstdint>
@@ -23,20 +23,20 @@ struct ConnectOptions {
   double timeout_s = 10.0;
   float rate = 30.0f;
   int frames = 1;
-  StageOptions stage;  // its scene is empty: pictures of the server's
+  StageOptions stage;  // with an empty scene, the server sends pictures
   std::string quality = "interactive";
   std::string codec = "lambent";  // of light
-  float interest = 0.0f;          // light within so far comes with each update [m]; 0: all does
+  float interest = 0.0f;  // radius within which light comes with each update [m]; 0: all light
 };
 
-/// The number of the one input that is sent.
+/// The number of the only input that is sent.
 inline constexpr std::uint32_t kCameraInput = 1;
 
-/// Where a frame of the command's goes.
+/// The path of a frame.
 std::string name_of_frame(const ConnectOptions& options, std::size_t frame);
 
-/// Renders the options' scene in the light of a server, a picture for each update of it. `camera`:
-/// in place of the server's.
+/// Renders the options' scene in the light of a server, one picture for each update of the light.
+/// `camera` replaces the server's camera.
 Expected<void> render_by_stream(const ConnectOptions& options,
                                 const stream::ConnectSettings& settings, stream::Joined& joined,
                                 const std::optional<stream::CameraInput>& camera);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of a scene of one's own, in the light that a server sends.
+// Pictures of a local scene, in the light that a server sends.
 #include <chrono>
 #include <string>
 #include <vector>
@@ -21,7 +21,7 @@
 namespace lambent::cli {
 namespace {
 
-/// Takes messages until the light is another one, and answers them.
+/// Receives and answers messages until the light changes.
 Expected<void> wait_for_light(stream::Client& client, stream::LitScene& lit,
                               std::chrono::milliseconds timeout) {
   const auto end = std::chrono::steady_clock::now() + timeout;
@@ -61,7 +61,7 @@ Expected<void> render_by_stream(const ConnectOptions& options,
   if (!scene) return tl::unexpected(scene.error());
   begin_step("preparing the scene for rays");
   World world(*scene);
-  // The server chose its first light by its own view
+  // The server chose its first light by its own view, so choose it here by the same view
   const auto light =
       add_first_light(options.stage.light, stream::camera_of(joined.welcome.camera), *scene, world);
   if (!light) return tl::unexpected(light.error());
@@ -94,7 +94,8 @@ Expected<void> render_by_stream(const ConnectOptions& options,
     if (!renderer) renderer.emplace(world, IndirectSources{lit.field()});
     const Camera from = stream::camera_of(camera.value_or(joined.welcome.camera));
     if (!stops && shows_unlit(world.scene())) {
-      // Unlit surfaces show their colours at the exposure of all others
+      // First find the exposure without unlit surfaces; these then show their colours at that
+      // exposure
       frame->unlit_radiance = 0.0f;
       if (const auto done = renderer->render(from, *frame, picture); !done) return done;
       stops = display_stops(picture.image);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the program says: data on stdout; on stderr what was done, warnings and errors.
+// Output of the program: data on stdout; results, warnings and errors on stderr.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace lambent::cli {
 
-/// With --quiet nothing but errors goes to stderr: no line of success, no warning, no progress.
-/// There is one stderr, hence one such choice.
+/// With --quiet, only errors are printed on stderr: no line of success, no warning, no progress.
+/// Global, since there is one stderr.
 void set_quiet(bool quiet);
 bool is_quiet();
-/// From now on, not even errors are told: another process of the same job does.
+/// From now on, not even errors are printed, since another process of the same job prints them.
 void set_mute();
 
 /// Prints "lambent: TEXT" on stderr, unless the program is quiet.
@@ -25,15 +25,15 @@ void warn(const std::string& text);
 /// Prints "lambent: TEXT" on stderr.
 void tell_error(const std::string& text);
 
-/// Tells that a file was written: its name, what is in it ("640x360 pixels"), its size, and the
-/// time that the program ran. `more` is what else is worth knowing, or empty.
+/// Prints that a file was written: its name, its contents ("640x360 pixels"), its size, and the
+/// time since the program started. `more` is further information, or empty.
 void tell_written(const std::string& path, const std::string& what, const std::string& more = "");
 
-/// The same of several files, such as the pictures of a sequence; there is at least one.
+/// Prints that several files were written, at least one, such as the pictures of a sequence.
 void tell_written(const std::vector<std::string>& paths, const std::string& what,
                   const std::string& more = "");
 
-/// Sends off what is left of stdout. Fails where any of it could not be written.
+/// Flushes stdout. Fails if any output could not be written.
 Expected<void> finish_stdout();
 
 }  // namespace lambent::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lambent field: what a field's file holds, for people and for other programs.
+// lambent field: prints the contents of a field's file, for people and for other programs.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
@@ -28,11 +28,11 @@ constexpr const char* kDistanceEnding = ".distance.exr";
 constexpr std::array kStates = {"off",   "sleeping",       "newly_awake",
                                 "awake", "newly_vigilant", "vigilant"};
 
-/// What a volume's probes are like on the whole.
+/// Summary of a volume's probes.
 struct Summary {
   std::array<int, kStates.size()> states{};
-  double samples = 0.0;        // on average
-  glm::dvec3 irradiance{0.0};  // likewise, over probes and directions [W/m^2]
+  double samples = 0.0;        // mean per probe
+  glm::dvec3 irradiance{0.0};  // mean over probes and directions [W/m^2]
   int relocated = 0;           // off the grid
 };
 

@@ -15,25 +15,24 @@
 namespace lambent::cli {
 namespace {
 
-// Passes whose rows statistics have whether or not they ran, by the names of
-// UpdateStatistics::passes.
+// Passes that statistics always list, whether or not they ran; names of UpdateStatistics::passes.
 constexpr const char* kPasses[] = {"placement",  "edits",   "schedule",    "trace",
                                    "shade",      "lookups", "solve",       "blend_distances",
                                    "visibility", "store",   "variability", "corrections"};
 
-// Light is called settled when an update changes the field by less than this share of it ...
+// Light counts as settled when an update changes the field by less than this share of it,
 constexpr double kSettledChange = 0.002;
-// ... or after so many updates.
+// or after this many updates.
 constexpr int kMaxSettleUpdates = 256;
 
-// Light of a picture is calm enough when its standard error is below this share of it: clouds of
-// noise around probes are then hard to see on a plain wall. More updates than the most bring less
-// than they cost.
+// Light counts as calm when its standard error is below this share of it: noise around probes is
+// then hard to see on a plain wall. Updates beyond kMaxCalmUpdates improve it by less than they
+// cost.
 constexpr double kCalmError = 0.025;
 constexpr int kMaxCalmUpdates = 80;
 // Once all bounces have reached all probes, an update has this share of a full one's rays, which go
-// to the noisiest probes: to 3 % of error, a bathroom lit by a patch of sun takes 4.4 s so, 7.6 s
-// with full updates, and 5.6 s with quarters of them.
+// to the noisiest probes: a bathroom lit by a patch of sun reaches 3 % of error in 4.4 s, with full
+// updates in 7.6 s, and with quarters of them in 5.6 s.
 constexpr double kCalmRays = 0.5;
 
 const std::map<std::string, IrradianceFormat> kIrradianceFormats = {
@@ -43,15 +42,14 @@ const std::map<std::string, IrradianceFormat> kIrradianceFormats = {
 const std::map<std::string, DistanceFormat> kDistanceFormats = {{"rg16f", DistanceFormat::rg16f},
                                                                 {"rg32f", DistanceFormat::rg32f}};
 
-// The widest distance between probes whose square is still a number [m].
+// Largest distance between probes [m]; its square is finite in a float.
 constexpr double kMaxSpacing = 1e15;
 constexpr int kMaxCascades = 16;
 
 const std::map<std::string, Visibility> kVisibilities = {
     {"moments", Visibility::moments}, {"hybrid", Visibility::hybrid}, {"exact", Visibility::exact}};
 
-/// What a setting of the library is called on the command line. Those that are not here cannot be
-/// reached from there.
+/// The options that correspond to settings of the library. Other settings have no option.
 constexpr std::pair<const char*, const char*> kOptionsOfSettings[] = {
     {"rays", "--rays"},
     {"hysteresis", "--hysteresis"},
@@ -74,17 +72,16 @@ std::vector<std::string> names_of(const std::map<std::string, Value>& values) {
 
 using AfterUpdate = std::function<void(const FieldProgress&)>;
 
-/// How often a field is updated: until its light changes little, or has little noise, within
-/// limits.
+/// Conditions for the end of updates: the light changes little, or has little noise, within limits.
 struct UpdateLimits {
   int least;
   int most;
-  double change = 0.0;  // by which an update changes the light, over it; 0: does not matter
-  double error = 0.0;   // standard error of the light, over it; 0: does not matter
-  double rays = 1.0;    // of updates after the least ones, over those of a full one; 1: full ones
+  double change = 0.0;  // relative change of the light by an update; 0: no condition
+  double error = 0.0;   // relative standard error of the light; 0: no condition
+  double rays = 1.0;    // share of a full update's rays, after the first `least` updates
 };
 
-/// Updates a field that has had `before` updates already, which count.
+/// Updates a field that has had `before` updates already, which are included in the counts.
 FieldProgress run_updates(const World& world, int before, const UpdateLimits& limits,
                           const UpdateRequest& request, IrradianceField& field,
                           const ProgressFn& progress, const AfterUpdate& after,
@@ -267,7 +264,7 @@ Error in_options(Error error, const FieldOptions& options) {
     error.place = option;
     return error;
   }
-  // Volumes are named by what was typed, or by the scene's author
+  // Volumes are named by the option's text, or by the scene's author
   for (const std::string& typed : options.volumes) {
     if (error.place == "volume '" + typed + "'") error.place = "--volume " + typed;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a field is like, and how it is brought to its light: shared by subcommands that make fields.
+// The options of fields and of their updates, shared by subcommands that make fields.
 #pragma once
 
 #include <cstdint>
@@ -20,66 +20,67 @@ class Option;
 
 namespace lambent::cli {
 
-// After so many bounces no surface that we accept has light left to send on.
+// With FieldSettings::max_albedo of at most 0.99, no light is left after this many bounces.
 inline constexpr int kMaxBounces = 1000;
 inline constexpr int kMaxUpdates = 100'000;
 
 struct FieldOptions {
-  FieldSettings settings;  // without what the others say
+  FieldSettings settings;  // does not include the options below
   std::string probes, bounds;
   std::vector<std::string> volumes;
   std::string irradiance_format = "rgb9e5";
   std::string distance_format = "rg16f";
-  std::string visibility;                    // empty: of the quality, else moments
-  std::vector<const CLI::Option*> of_shape;  // what a field's file has decided
+  std::string visibility;                    // empty: that of the quality, else moments
+  std::vector<const CLI::Option*> of_shape;  // options that a field's file determines
 };
 
 /// Declares the options on `command`; `options` must outlive it.
 void add_field_options(CLI::App& command, FieldOptions& options);
 
-/// What the options call a format.
+/// The name of a format in options.
 std::string name_of(IrradianceFormat format);
 
-/// What the options say, with the volumes that the scene brings.
+/// The settings from the options and the scene's volumes.
 Expected<FieldSettings> field_settings(const FieldOptions& options, const Scene& scene,
                                        std::uint32_t seed, int bounces);
 
-/// An error that the library has about a field's settings, told of the options that the user typed.
+/// Converts an error of the library about a field's settings to one about the options that the user
+/// typed.
 Error in_options(Error error, const FieldOptions& options);
 
-/// Where updates of a field led.
+/// The result of updates of a field.
 struct FieldProgress {
   int updates = 0;
-  double change = 0.0;   ///< Of the light, by the last of them.
-  bool settled = false;  ///< It changed less than what counts as settled.
+  double change = 0.0;   ///< Relative change of the light in the last update.
+  bool settled = false;  ///< The change is below the limit for settled light.
 };
 
-/// Updates the field so often, each time as requested, and books what it cost in `stats`.
+/// Updates the field `updates` times, each time with `request`, and adds the costs to `stats`.
 FieldProgress update_field(const World& world, int updates, const UpdateRequest& request,
                            IrradianceField& field, const ProgressFn& progress,
                            nlohmann::ordered_json& stats);
 
-/// Likewise, at least so often, until the standard error of its light is below 2.5 %, at most 80
-/// times: what small bright patches leave of noise in it shows in mirrors and on walls. Updates
-/// after the least ones trace half the rays, from the noisiest probes.
+/// Updates the field at least `least` times, until the standard error of its light is below 2.5 %,
+/// at most 80 times: otherwise noise from small bright patches is visible in mirrors and on walls.
+/// Updates after the first `least` trace half as many rays, from the noisiest probes.
 FieldProgress calm_field(const World& world, int least, const UpdateRequest& request,
                          IrradianceField& field, const ProgressFn& progress,
                          nlohmann::ordered_json& stats);
 
-/// Likewise, until an update changes the field by less than 0.2 %, at most 256 times.
+/// Updates the field until an update changes it by less than 0.2 %, at most 256 times.
 FieldProgress settle_field(const World& world, const UpdateRequest& request, IrradianceField& field,
                            const ProgressFn& progress, nlohmann::ordered_json& stats);
 
-/// What a bake does beside updating.
+/// How bake_field updates a field.
 struct BakeLoop {
-  int updates = 0;  ///< Of the field in all; 0: until it has settled, as settle_field has it.
+  int updates = 0;  ///< Total number; 0: until it has settled, as in settle_field.
   ProgressFn progress;
-  /// Called after each update but the last.
+  /// Called after each update except the last.
   std::function<void(const FieldProgress&)> after_update;
 };
 
-/// Updates a field, which may have had updates before, until it is baked. FieldProgress counts
-/// those, too; `stats` does so in "updates" alone.
+/// Updates a field, which may have had updates before, until it is baked. FieldProgress includes
+/// earlier updates; `stats` includes them only in "updates".
 FieldProgress bake_field(const World& world, const UpdateRequest& request, const BakeLoop& loop,
                          IrradianceField& field, nlohmann::ordered_json& stats);
 

@@ -29,20 +29,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Side of the blocks whose means --verify compares [pixels]: hides the path tracer's noise, keeps
-// structure.
+// Side of the blocks whose means --verify compares [pixels]: hides the path tracer's noise, but
+// preserves structure.
 constexpr int kVerifyBlock = 8;
 
-// Default of --samples of the reference: noise is fine grain.
+// Default of --samples for the reference: the noise is then fine grain.
 constexpr int kReferenceSamples = 64;
 
-// Of the picture that tells the field what is seen [pixels].
+// Size of the picture from which the field's UpdateRequest::seen is taken [pixels].
 constexpr int kSeenWidth = 48, kMaxSeenHeight = 96;
 
-// Longer side of the pictures that tell how bright a view is [pixels]: of pictures with millions of
-// pixels, and of others.
+// Longer side of the preview from which the exposure is found [pixels]: for pictures with millions
+// of pixels, and for others.
 constexpr int kLargePreviewSide = 512, kPreviewSide = 192;
-// Paths a pixel of such a picture.
+// Paths per pixel of such a preview.
 constexpr int kPreviewSamples = 16;
 
 const std::map<std::string, ProbeAspect> kProbeAspects = {{"irradiance", ProbeAspect::irradiance},
@@ -50,7 +50,7 @@ const std::map<std::string, ProbeAspect> kProbeAspects = {{"irradiance", ProbeAs
                                                           {"state", ProbeAspect::state},
                                                           {"age", ProbeAspect::age}};
 
-/// The field that the options ask for, as yet without updates.
+/// The field that the options describe, before any updates.
 Expected<IrradianceField> open_field(const RenderOptions& options, const World& world,
                                      const Camera& camera) {
   const auto settings = picture_field_settings(options, world.scene());
@@ -81,7 +81,7 @@ ReferenceSettings reference_settings(const RenderOptions& options, const glm::iv
   return settings;
 }
 
-/// Adds what a frame, or some of its rows, cost.
+/// Adds the costs of a frame, or of some of its rows.
 void book(const RenderedFrame& frame, Json& stats) {
   for (const PassTime& pass : frame.passes) {
     const std::string key = pass.name + "_ms";
@@ -90,14 +90,14 @@ void book(const RenderedFrame& frame, Json& stats) {
   stats["camera_rays"] = stats.value("camera_rays", std::uint64_t{0}) + frame.rays;
 }
 
-/// The size of the same view in few pixels: enough to tell how bright it is.
+/// The size of a preview of the same view, from which its brightness is found.
 glm::ivec2 preview_of(const glm::ivec2& size, int side) {
   const double scale = std::min(1.0, static_cast<double>(side) / std::max(size.x, size.y));
   return {std::max(1, static_cast<int>(std::lround(size.x * scale))),
           std::max(1, static_cast<int>(std::lround(size.y * scale)))};
 }
 
-// Updates that bring all bounces to all probes, with what noise is left.
+// Number of updates after which all bounces have reached all probes; noise remains.
 constexpr int kFewUpdates = 8;
 
 int first_updates(const RenderOptions& options) {
@@ -110,7 +110,7 @@ FrameRenderer::FrameRenderer(const RenderOptions& options, const World& world,
                              const glm::ivec2& size)
     : options_(options), world_(world), size_(size), progress_(terminal_progress()) {}
 
-/// Brings the field up to date with the world: the first time from nothing, or from a file.
+/// Brings the field up to date with the world. The first time, creates it or reads it from a file.
 Expected<void> FrameRenderer::follow(const Camera& camera, Json& stats) {
   const glm::vec3 viewer(camera.world_from_view[3]);
   if (field_) {
@@ -137,8 +137,9 @@ Expected<void> FrameRenderer::follow(const Camera& camera, Json& stats) {
   return {};
 }
 
-/// Makes the fields of one frame anew: all light, and the first bounce of the lights that the maps
-/// bring, which is taken out. Both trace the same rays, so that noise goes with it.
+/// Makes both fields of one frame anew: one with all light, and one with the first bounce of the
+/// lights that the maps include, which is subtracted. Both trace the same rays, so that their noise
+/// cancels.
 Expected<void> FrameRenderer::split_bounces(const Camera& camera, Json& stats) {
   const auto settings = picture_field_settings(options_, world_.scene());
   if (!settings) return tl::unexpected(settings.error());
@@ -157,7 +158,7 @@ Expected<void> FrameRenderer::split_bounces(const Camera& camera, Json& stats) {
   return {};
 }
 
-/// Brings the light that the method looks up to date with the world.
+/// Updates the fields of the method to the current world.
 Expected<void> FrameRenderer::light(const Camera& camera, Json& stats) {
   if (!uses_field(options_)) return {};
   begin_step("updating the field");
@@ -196,7 +197,8 @@ Expected<void> FrameRenderer::paint(const Camera& camera, Json& stats) {
   }
   FrameSettings settings = frame_settings(options_, size_);
   settings.unlit_radiance = unlit_radiance_;
-  // Frames of which a mean is taken must have different noise. Averaged light draws its own
+  // Frames that are averaged must have different noise. With averaged_frames, the renderer itself
+  // varies the seed
   const bool averages = settings.averaged_frames > 1;
   if (settings.temporal_antialiasing && !averages) settings.seed += painted_++;
   if (const auto done = render(camera, settings, progress_); !done) return done;
@@ -208,9 +210,9 @@ Expected<void> FrameRenderer::paint(const Camera& camera, Json& stats) {
   return {};
 }
 
-/// Sets the radiance at which unlit surfaces show their colours, and where the options leave it
-/// open, first the exposure: it is that of all other surfaces, which a small picture without
-/// the unlit ones tells. In files of radiance, unlit surfaces have that of their colours.
+/// Sets the radiance at which unlit surfaces show their colours. If the options do not set the
+/// exposure, it is first found from all other surfaces, in a small picture without the unlit ones.
+/// In files of radiance, the radiance of unlit surfaces is their colour.
 Expected<void> FrameRenderer::expose_unlit(const Camera& camera, const std::string& path,
                                            std::optional<float>& stops) {
   if (has_ending(path, ".exr") || !shows_unlit(world_.scene())) return {};
@@ -247,7 +249,7 @@ Expected<void> FrameRenderer::paint_to_file(const Camera& camera, const std::str
   }
   FrameSettings settings = frame_settings(options_, size_);
   settings.unlit_radiance = unlit_radiance_;
-  settings.averaged_frames = 1;  // of whole pictures alone
+  settings.averaged_frames = 1;  // supported for whole pictures only
   if (file.needs_stops()) {
     FrameSettings preview = settings;
     const glm::ivec2 size = preview_of(size_, kLargePreviewSide);

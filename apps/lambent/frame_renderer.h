@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures by each method of `lambent render`, and what they cost.
+// Renders pictures by each method of `lambent render`, and records their costs.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -17,23 +17,23 @@
 
 namespace lambent::cli {
 
-/// Paints pictures of a world, one after the other, lit by one field that follows the world.
+/// Renders pictures of a world, one after the other, lit by one field that follows the world.
 class FrameRenderer {
  public:
   /// The options and the world must outlive it.
   FrameRenderer(const RenderOptions& options, const World& world, const glm::ivec2& size);
 
-  /// Of its pictures [pixels].
+  /// Size of its pictures [pixels].
   const glm::ivec2& size() const { return size_; }
 
-  /// Paints the world as it is now into a file. Pictures of many pixels are made and written some
-  /// rows at a time, where the method can. `stops` as of PictureFile. Times and counts go into
-  /// `stats`.
+  /// Renders the current state of the world to a file. Large pictures are rendered and written some
+  /// rows at a time, where the method supports it. For `stops`, see PictureFile. Adds times and
+  /// counts to `stats`.
   Expected<void> paint_to_file(const Camera& camera, const std::string& path,
                                std::optional<float>& stops, nlohmann::ordered_json& stats);
 
-  /// Path-traces the view that was painted last, in a world on the processor, and prints the
-  /// picture's error beside it.
+  /// Path-traces the view that was rendered last, in a world on the processor, and prints the
+  /// picture's error relative to it.
   Expected<void> verify(const World& world, const Camera& camera,
                         nlohmann::ordered_json& stats) const;
 
@@ -53,8 +53,8 @@ class FrameRenderer {
   const World& world_;
   glm::ivec2 size_;
   ProgressFn progress_;
-  std::optional<IrradianceField> field_;         // after the first picture
-  std::optional<IrradianceField> first_bounce_;  // what is taken out of it, of rsm+field
+  std::optional<IrradianceField> field_;         // set with the first picture
+  std::optional<IrradianceField> first_bounce_;  // subtracted from field_, for the method rsm+field
   std::optional<Renderer> renderer_;             // refers to both
   RenderedFrame frame_;
   float unlit_radiance_ = 1.0f;

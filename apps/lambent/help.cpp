@@ -10,10 +10,10 @@
 namespace lambent::cli {
 namespace {
 
-constexpr std::size_t kLineWidth = 96;    // [characters] that fit most terminals
-constexpr std::size_t kNameColumns = 28;  // of the names of options, on the left
+constexpr std::size_t kLineWidth = 96;    // [characters], fits most terminals
+constexpr std::size_t kNameColumns = 28;  // width of the column of options' names, on the left
 
-/// Appends `text` to `out` in lines that begin at `indent`, the first of which is at `column`
+/// Appends `text` to `out`, wrapped, with lines indented by `indent`; the first line is at `column`
 /// already.
 void append_wrapped(std::ostringstream& out, const std::string& text, std::size_t column,
                     std::size_t indent) {
@@ -74,7 +74,7 @@ class HelpFormatter final : public CLI::Formatter {
     std::ostringstream out;
     std::string name = option->get_name(is_positional, !is_positional);
     if (const auto comma = name.find(','); comma != std::string::npos) name.insert(comma + 1, " ");
-    // Flags that switch something off carry what they set it to: --name{false}
+    // Flags that switch something off contain their value: --name{false}
     name = name.substr(0, name.find('{'));
     const bool valued = !is_positional && option->get_type_size() > 0;
     const std::string standard = option->get_default_str();

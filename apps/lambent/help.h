@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the program explains itself.
+// The program's help texts.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@ class Option;
 
 namespace lambent::cli {
 
-/// What `lambent` alone prints: what it is, and what to type.
+/// The text that `lambent` prints without arguments.
 std::string short_help();
 
-/// Has --help of `app` and its subcommands print: usage, what it does, the options that matter
-/// most, examples, then all others in groups, in lines of a terminal's width.
+/// Sets the format of --help for `app` and its subcommands: usage, description, the most important
+/// options, examples, then all other options in groups, wrapped to a terminal's width.
 void set_help_style(CLI::App& app);
 
-/// The group whose options stand first, before the examples.
+/// The group whose options are listed first, before the examples.
 inline constexpr const char* kMainGroup = "Most used";
-/// The group that stands last: what each subcommand has.
+/// The group that is listed last: options that each subcommand has.
 inline constexpr const char* kProgramGroup = "Help and messages";
 
 /// Groups of subcommands in the program's --help.
@@ -30,7 +30,8 @@ inline constexpr const char* kFieldGroup = "Fields";
 inline constexpr const char* kStreamGroup = "Streams";
 inline constexpr const char* kMachineGroup = "This machine";
 
-/// Examples of a subcommand: command lines, each with what it does after two spaces or more.
+/// Sets the examples of a subcommand: command lines, each followed by two or more spaces and its
+/// description.
 void set_examples(CLI::App& command, const std::string& examples);
 
 }  // namespace lambent::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lambent info: what was understood of a scene.
+// lambent info: prints the contents of a scene.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdarg>
@@ -89,7 +89,7 @@ const char* name_of(Light::Type type) {
   return "";
 }
 
-// What a material does beyond plain factors.
+// A material's features beyond plain factors.
 std::vector<std::string> features_of(const Material& m) {
   std::vector<std::string> features;
   const auto add = [&features](bool present, const char* name) {
@@ -121,7 +121,7 @@ std::vector<std::string> features_of(const Material& m) {
 }
 
 void print_materials(const Scene& scene) {
-  const Material plain;  // What it shares with this is not worth a word
+  const Material plain;  // only differences from the default material are listed
   row("materials", "%zu", scene.materials.size());
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& m = scene.materials[i];
@@ -221,7 +221,7 @@ void print_animations(const Scene& scene) {
   }
 }
 
-/// The meshes that are wound against what open space sees of them.
+/// The meshes whose triangles face away from open space.
 std::vector<MiswoundMesh> find_miswound(const Scene& scene) {
   if (scene.instances.empty()) return {};
   const World world(scene);
@@ -283,7 +283,7 @@ nlohmann::ordered_json list_of(const glm::vec3& v) {
   return {v.x, v.y, v.z};
 }
 
-// One flat object; what a scene has many of becomes parallel lists.
+// One flat object; lists of objects become parallel lists of their properties.
 nlohmann::ordered_json json_of(const Scene& scene, const std::string& name) {
   const Totals totals = total(scene);
   const SceneSource& source = scene.source;
@@ -363,7 +363,7 @@ Expected<void> info(const InfoOptions& options) {
   const Expected<Scene> scene = open_scene_input(options.scene);
   if (!scene) return tl::unexpected(scene.error());
   if (options.json) {
-    // Names are UTF-8 already; a path need not be
+    // Names are UTF-8, but a path need not be
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
     std::printf("%s\n", json_of(*scene, options.scene).dump(2, ' ', false, replace).c_str());
   } else {

@@ -28,7 +28,7 @@ struct Kind {
   std::string name;  // "an OpenEXR image"
 };
 
-/// What files begin with.
+/// The first bytes of files of a kind.
 struct Signature {
   std::string_view bytes;
   Content content;
@@ -53,10 +53,10 @@ constexpr Signature kSignatures[] = {
     {"PK\x03\x04"sv, Content::foreign, "a ZIP archive: unpack it first"},
     {"\x1f\x8b"sv, Content::foreign, "a gzip archive: unpack it first"},
 };
-// What is looked at of a file: more than any signature, and white space before JSON [bytes].
+// Bytes of a file that are examined: more than any signature, and than white space before JSON.
 constexpr std::size_t kLookedAt = 512;
 
-/// Files of text that begin in no way of their own.
+/// Text files without a signature, which are recognised by their ending.
 struct ForeignEnding {
   const char* ending;
   const char* name;
@@ -68,7 +68,7 @@ constexpr ForeignEnding kForeignEndings[] = {
     {".3ds", "a 3D Studio scene: convert it to glTF, say with Blender"},
 };
 
-/// What a file is, by its first bytes, or by its ending.
+/// The kind of a file, by its first bytes, or by its ending.
 Kind kind_of(const std::string& path) {
   std::array<char, kLookedAt> bytes{};
   std::ifstream file(path, std::ios::binary);
@@ -92,7 +92,7 @@ Kind kind_of(const std::string& path) {
   return {Content::unknown, text.empty() ? "an empty file" : ""};
 }
 
-/// Which subcommands read files of that content; empty: none.
+/// The subcommands that read files of that content; empty: none.
 std::string readers_of(Content content) {
   switch (content) {
     case Content::scene:
@@ -139,7 +139,7 @@ tl::unexpected<Error> missing(const std::string& path, bool scene) {
   return fail(path, "", cause + " (lambent scenes lists these)");
 }
 
-/// "is a folder", and which scenes are in it.
+/// The error "is a folder", with the scenes in it.
 tl::unexpected<Error> is_folder(const std::string& path, bool scene) {
   std::vector<std::string> names;
   for (const std::string& name : files_of(path)) {
@@ -158,7 +158,7 @@ Expected<void> check_input(const std::string& path, Content wanted, const char* 
   std::error_code error;
   if (!fs::exists(path, error)) return missing(path, scene);
   if (fs::is_directory(path, error)) return is_folder(path, scene);
-  // Looking into a pipe would take away what it holds
+  // Reading from a pipe would consume its content
   if (!fs::is_regular_file(path, error)) return {};
   const Kind kind = kind_of(path);
   if (kind.content == wanted || (kind.content == Content::unknown && !scene)) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files that subcommands read: whether they are there, and of the kind that is read.
+// Checks of files that subcommands read: whether they exist, and have the expected kind.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace lambent::cli {
 
-/// Fails where there is no such image, naming the nearest file beside it, and where the file is
-/// something else that we know, saying what it is and which subcommand reads it.
+/// Fails where there is no such image, with the most similar file name in the folder, and where the
+/// file is of another known kind, with that kind and the subcommand that reads it.
 Expected<void> check_image_input(const std::string& path);
 
-/// check_image_input for a file of lambent bake.
+/// Like check_image_input, for a field's file of `lambent bake`.
 Expected<void> check_field_input(const std::string& path);
 
-/// check_image_input for a scene: the name of a built-in one, or a glTF file. The nearest name may
-/// also be that of a built-in scene.
+/// Like check_image_input, for a scene: the name of a built-in one, or a glTF file. The suggestion
+/// may also be a built-in scene.
 Expected<void> check_scene_input(const std::string& path_or_name);
 
-/// The scene that was asked for by the name of a built-in one or the path of a glTF file. Fails as
+/// Opens a scene by the name of a built-in one or the path of a glTF file. Fails as
 /// check_scene_input does, and where the file is broken.
 Expected<Scene> open_scene_input(const std::string& path_or_name, const LoadOptions& options = {});
 

@@ -12,7 +12,7 @@ namespace {
 
 /// Ctrl-C, kill, and a terminal that was closed.
 constexpr int kEndingSignals[] = {SIGINT, SIGTERM, SIGHUP};
-/// What a guard waits for: without a terminal there is nobody left to wait for the frame.
+/// Signals that a guard records. Not SIGHUP: without a terminal nobody waits for the frame.
 constexpr int kGuardedSignals[] = {SIGINT, SIGTERM};
 
 std::atomic<bool> guarding = false, noted = false;
@@ -20,7 +20,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler uses it"
 
 void end_by(int number) {
   discard_unfinished_files();
-  // Die of the signal itself
+  // Raise the signal again with its default action
   signal(number, SIG_DFL);
   sigset_t own;
   sigemptyset(&own);
@@ -46,7 +46,7 @@ void clean_up_on_signals() {
   for (const int number : kEndingSignals) {
     struct sigaction before {};
     sigaction(number, nullptr, &before);
-    // What was started with nohup stays deaf to it
+    // Programs started with nohup continue to ignore it
     if (before.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);
   }
   signal(SIGXFSZ, SIG_IGN);

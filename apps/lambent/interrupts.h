@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the program does on Ctrl-C and its kin.
+// Handling of Ctrl-C and similar signals.
 #pragma once
 
 namespace lambent::cli {
 
-/// From now on, signals that end the program first remove files that are half written. The program
-/// still dies of the signal, so that a shell sees the customary status (130 for Ctrl-C) and ends
-/// its loops. A file that grows past a limit (ulimit -f) is an error in place of a signal.
+/// From now on, signals that end the program first remove unfinished files. The program is still
+/// terminated by the signal, so that a shell sees the usual status (130 for Ctrl-C) and ends its
+/// loops. A file that exceeds a limit (ulimit -f) causes an error in place of a signal.
 void clean_up_on_signals();
 
-/// While it lives, the first interrupt or request to terminate is noted only; the second one ends
-/// the program as clean_up_on_signals has it.
+/// While it exists, the first interrupt or request to terminate is only recorded; the second one
+/// ends the program as described at clean_up_on_signals.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -18,7 +18,7 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  /// Whether there was one.
+  /// Whether there was an interrupt.
   bool interrupted() const;
 };
 

@@ -19,7 +19,7 @@ namespace {
 
 #if LAMBENT_MPI
 
-// What the launcher is told where a process ends all others (docs/cli.md).
+// Exit status for the launcher when a process ends all others (docs/cli.md).
 constexpr int kFailed = 1;
 
 [[noreturn]] void end_job(const MpiRanks& ranks, const std::string& why) {
@@ -27,8 +27,8 @@ constexpr int kFailed = 1;
   MpiRanks::end_job(kFailed);
 }
 
-/// The first process that failed of itself tells why, the others say nothing. It does so now: once
-/// the first one has ended, the launcher ends the others.
+/// Only the first process that has failed with a cause of its own prints it. It does so now, since
+/// the launcher ends the others once the first one has ended.
 void tell_why_once(Ranks& ranks, const Expected<void>& done) {
   const bool of_itself = !done && !done.error().cause.empty();
   const std::vector<std::uint8_t> failed = gather_each<std::uint8_t>(ranks, of_itself ? 1 : 0);
@@ -86,7 +86,7 @@ Expected<void> agree(const Job& job, const Expected<void>& own) {
   if (!own) return own;
   const auto first = std::find_if(all.begin(), all.end(), [](State s) { return s != State::fine; });
   if (first == all.end()) return {};
-  // Without a cause: the process that failed tells it
+  // Without a cause, which the process that failed prints
   return fail("", "", "",
               *first == State::bad_input ? Error::Kind::bad_input : Error::Kind::failed);
 }

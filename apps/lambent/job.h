@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Subcommands that several processes, started by an MPI launcher, carry out together.
+// Subcommands that several processes, started by an MPI launcher, execute together.
 #pragma once
 
 #include <functional>
@@ -13,20 +13,20 @@ namespace lambent::cli {
 /// The processes of a job.
 struct Job {
   Ranks& ranks;
-  int on_this_machine = 1;  ///< How many of them share this one's memory.
+  int on_this_machine = 1;  ///< Number of processes on this one's machine.
 
-  /// Whether this is the process that writes files and tells how things go.
+  /// Whether this is the process that writes files and prints messages.
   bool leads() const { return ranks.own() == 0; }
 };
 
 /// Calls work(job), with the processes that were launched together with this one, or with this one
-/// alone. Only the first of them tells of success, warnings and progress. Where the work fails, all
-/// processes must have agreed on it (agree); one of them says why. An exception in one of them
-/// ends them all. Fails where there are several and the program was built without MPI.
+/// alone. Only the first process prints success, warnings and progress. If the work fails, all
+/// processes must have agreed on it (agree); one of them prints the cause. An exception in one
+/// process ends all. Fails where there are several and the program was built without MPI.
 Expected<void> run_job(const std::function<Expected<void>(const Job&)>& work);
 
-/// Returns `own` where it has failed; else fails, without a cause, where that of another process
-/// has. All of them call it.
+/// Returns `own` if it has failed; otherwise fails, without a cause, if that of another process
+/// has. All processes must call it.
 Expected<void> agree(const Job& job, const Expected<void>& own);
 
 }  // namespace lambent::cli

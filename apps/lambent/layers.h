@@ -8,11 +8,11 @@
 
 namespace lambent::cli {
 
-/// A layer's name for people: the whole picture's is empty.
+/// A layer's name for display, since the name of the whole picture is empty.
 std::string layer_text(const std::string& name);
 
-/// The layer of that name of the image that was read from `path`; an Error that lists those there
-/// are, and offers the nearest, otherwise.
+/// The layer of that name of the image that was read from `path`. Otherwise fails, listing the
+/// existing layers and suggesting the nearest.
 Expected<const Image*> find_layer(const std::string& path, const LayeredImage& image,
                                   const std::string& name);
 

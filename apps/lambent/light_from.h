@@ -18,19 +18,19 @@ class Option;
 namespace lambent::cli {
 
 struct LightFromOptions {
-  std::string server;  // empty: the light is computed here
+  std::string server;  // empty: the light is computed locally
   std::string token_file, authority;
 };
 
-/// Declares the options on `command`; `options` must outlive it. Options that say how light is
-/// computed are refused beside --light-from.
+/// Declares the options on `command`; `options` must outlive it. Options of local light are refused
+/// beside --light-from.
 void add_light_from_options(CLI::App& command, LightFromOptions& options,
                             const std::vector<CLI::Option*>& of_own_light);
 
 /// Connects to the server that the options name.
 Expected<std::unique_ptr<stream::Upstream>> open_upstream(const LightFromOptions& options);
 
-/// Fails where the scene has other objects and lights than the server's.
+/// Fails where the objects and lights of the scene differ from the server's.
 Expected<void> check_same_scene(const LightFromOptions& options, const stream::Welcome& welcome,
                                 const Scene& scene);
 

@@ -32,7 +32,7 @@ int report(const Error& error) {
   return error.kind == Error::Kind::bad_input ? kBadUsageOrInput : kFailed;
 }
 
-/// Every subcommand's --help and --quiet.
+/// Adds the options --help and --quiet that every subcommand has.
 void add_common_options(CLI::App& command, bool& quiet) {
   command.get_help_ptr()->description("Print this, and exit")->group(kProgramGroup);
   command.add_flag("--quiet", quiet, "Say nothing of success, warnings and progress; errors stay")
@@ -57,12 +57,12 @@ void add_subcommands(CLI::App& app, Run& run) {
   add_devices(app, run);
 }
 
-/// Parses the arguments into `run`, which stays empty where all was said already. Returns the exit
-/// status where that is not 0.
+/// Parses the arguments into `run`, which remains empty if only help was printed. Returns an exit
+/// status, 0 if there was no error.
 int parse(CLI::App& app, std::vector<std::string> typed, Run& run) {
   auto arguments = complete_arguments(app, std::move(typed));
   if (!arguments) return report(arguments.error());
-  std::reverse(arguments->begin(), arguments->end());  // as CLI11 takes them
+  std::reverse(arguments->begin(), arguments->end());  // the order that CLI11 expects
   try {
     app.parse(std::move(*arguments));
   } catch (const CLI::CallForHelp&) {
@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     lambent::cli::tell_error(error.what());
   }
-  // What was printed is not said before it is out: a full disk may show only now
+  // Flush stdout: a full disk may be detected only now
   const auto printed = lambent::cli::finish_stdout();
   if (status == 0 && !printed) return lambent::cli::report(printed.error());
   return status;

@@ -13,43 +13,45 @@
 namespace lambent::cli {
 namespace {
 
-// Floats a pixel [bytes]: a layer of three, and all layers of a frame.
+// Bytes per pixel of a layer of three floats, and of all layers of a frame.
 constexpr std::uint64_t kLayerBytes = 3 * sizeof(float);
 constexpr std::uint64_t kFrameBytes = 10 * kLayerBytes + sizeof(float);
-// Motion of a pixel: its record of five words, and a layer of two.
+// Motion: a record of five words per pixel, and a layer of two.
 constexpr std::uint64_t kMotionBytes = (5 + 2) * sizeof(float);
-// The record of motion again, and what anti-aliasing keeps of this frame and of the one before,
-// seven words each.
+// Temporal anti-aliasing: another record of motion, and seven words for this frame and for the one
+// before.
 constexpr std::uint64_t kTaaBytes = (5 + 2 * 7) * sizeof(float);
-// A picture that is written or compared, beside the frame: as the display shows it, and copied.
+// A picture that is written or compared, in addition to the frame: its display-encoded form, and a
+// copy.
 constexpr std::uint64_t kWritingBytes = 2 * kLayerBytes;
 // The path tracer's sums of its eight layers and their squares in doubles, and its own layers.
 constexpr std::uint64_t kReferenceBytes = 18 * 3 * sizeof(double) + 11 * kLayerBytes + 4;
-// What is kept of a pixel's sample to filter its light, and what the filter itself takes.
-// Whether a scene has glass or clearcoats, whose light is kept besides, is not known here.
+// Data of a pixel's samples for filters, and memory of the filters themselves. Glass and clearcoats
+// need more; whether a scene has them is not known here.
 constexpr std::uint64_t kGlassBytes = 14 * kLayerBytes + 9 * sizeof(float);
 constexpr std::uint64_t kClearcoatBytes = 4 * kLayerBytes + 2 * sizeof(float);
 constexpr std::uint64_t kFilterBytes =
     17 * kLayerBytes + 7 * sizeof(float) + 124 + kGlassBytes + kClearcoatBytes;
-// Light of the frame before and of this one, where it is averaged over frames, and its motion.
+// Light that is averaged over frames, of the frame before and of this one, and its motion.
 constexpr std::uint64_t kHistoryBytes = 2 * (4 * kLayerBytes + 4 * sizeof(float)) + 20;
-// A pixel of the view that maps light: position, normal and depth, planes of guide and two lights,
-// the picture out of the mosaic, and what is gathered;
+// A pixel that is lit by reflective shadow maps: position, normal and depth, planes of the guide
+// and of two lights, the interleaved picture, and the gathered light.
 constexpr std::uint64_t kRsmBytes = (7 + 7 + 2 * 3 + 3 + 3) * sizeof(float);
-// ... its direct light, where it is found there; and, where lights are shared out, the brightest
-// light's, and what arrives and what is sent of others, before and after a blur.
+// With RsmSettings::direct, its direct light; with fewer direct_lights than all, the brightest
+// light's, and of the others the arriving and the unoccluded light, before and after a blur.
 constexpr std::uint64_t kRsmDirectBytes = 2 * kLayerBytes;
 constexpr std::uint64_t kRsmShareBytes = 6 * kLayerBytes;
-// ... of which each of five stages is a layer of the frame where layers are kept.
+// With layers, each of five stages is a layer of the frame.
 constexpr std::uint64_t kRsmStageBytes = 5 * kLayerBytes;
 // Two images of three channels being compared: matched, clipped, filtered for SSIM and FLIP
 // (measured).
 constexpr std::uint64_t kComparisonBytes = 180;
-// A froxel of fog, as it is lit, smoothed, and averaged over frames.
+// A froxel of fog: lit, smoothed, and averaged over frames.
 constexpr std::uint64_t kFroxelBytes = 3 * 4 * sizeof(float);
-// What is taken whatever the size [bytes]: bands, maps, buffers of files, and heaps of threads.
+// Memory that does not depend on the size [bytes]: bands, maps, buffers of files, and heaps of
+// threads.
 constexpr std::uint64_t kFixedBytes = std::uint64_t{100} << 20;
-// Fewest rays that a probe may have.
+// Least number of rays per probe.
 constexpr std::uint64_t kMinRays = 16;
 
 std::uint64_t pixels_of(const glm::ivec2& size) {
@@ -94,7 +96,8 @@ std::uint64_t picture_bytes(const RenderOptions& options, const glm::ivec2& size
   const auto rows = static_cast<std::uint64_t>(rows_of_a_band(options, size));
   std::uint64_t band = rows * width * bytes_a_pixel(options);
   if (is_filtered(options)) {
-    // Above and below the band; twice as far where rough glass shows what was filtered before
+    // Rows above and below the band; twice as many for rough glass, whose light is filtered after
+    // the surfaces behind it
     band += 2 * 2 * static_cast<std::uint64_t>(denoise_reach({})) * width * kFilterBytes;
   }
   return kFixedBytes + band + (keeps_all_rows(options, size) ? pixels_of(size) * kLayerBytes : 0);
@@ -102,7 +105,7 @@ std::uint64_t picture_bytes(const RenderOptions& options, const glm::ivec2& size
 
 glm::ivec2 size_that_fits(const RenderOptions& options, const glm::ivec2& size,
                           std::uint64_t bytes) {
-  constexpr double kStep = 0.98;  // shrinks to a picture of one pixel in under 500 steps
+  constexpr double kStep = 0.98;  // reaches a picture of one pixel in under 500 steps
   glm::dvec2 fitting(size);
   glm::ivec2 rounded = size;
   while (picture_bytes(options, rounded) > bytes && (rounded.x > 1 || rounded.y > 1)) {

@@ -36,7 +36,7 @@ Expected<void> check_place(const std::string& path) {
   if (path.empty() || folder.empty() || fs::is_directory(folder, error)) {
     return check_writable(path);
   }
-  // The deepest folder that is there must let us make the next one
+  // The deepest existing folder must permit creating the next one
   fs::path there = folder;
   while (!there.empty() && !fs::exists(there, error)) there = there.parent_path();
   if (there.empty()) there = ".";
@@ -70,7 +70,8 @@ Expected<void> make_folders(const std::string& path) {
   if (folder.empty()) return {};
   std::error_code error;
   fs::create_directories(folder, error);
-  // "new/." and links to folders count as made, whatever create_directories says of them
+  // create_directories may report an error for "new/." and links to folders, which exist
+  // nevertheless
   std::error_code ignored;
   if (!error || fs::is_directory(folder, ignored)) return {};
   return cannot_make(path, folder, error.message());

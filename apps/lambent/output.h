@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where subcommands write to.
+// Output paths of subcommands.
 #pragma once
 
 #include <initializer_list>
@@ -10,29 +10,29 @@
 
 namespace lambent::cli {
 
-/// What pictures as a display shows them may end in.
+/// File endings of display-encoded pictures.
 inline constexpr std::initializer_list<const char*> kPictureEndings = {".png", ".jpg", ".jpeg"};
 
-/// Fails where a file could not be written, folders that are yet to be made included: before any
-/// work is done for it. Makes nothing.
+/// Fails where a file could not be written, including folders that would have to be made. To be
+/// called before any work is done. Creates nothing.
 Expected<void> check_place(const std::string& path);
 
 /// check_place, and fails where the name does not end in one of `endings` (".png").
 Expected<void> check_output(const std::string& path, std::initializer_list<const char*> endings);
 
-/// check_place for files of Lambent's own (`what`: "a field"), which may end in anything but what
-/// other kinds of files end in: a picture, a scene, statistics.
+/// check_place for Lambent's own formats (`what`: "a field"), which may have any ending except
+/// those of pictures, scenes and statistics.
 Expected<void> check_own_output(const std::string& path, const std::string& what);
 
-/// Makes the folders that a file is to lie in, where they are missing: right before it is written,
-/// so that work that fails leaves none behind.
+/// Creates the missing folders of a file's path. To be called right before the file is written, so
+/// that failed work leaves no folders behind.
 Expected<void> make_folders(const std::string& path);
 
-/// Writes what --stats asks for, with the folders that are missing.
+/// Writes the file of --stats, and creates missing folders.
 Expected<void> write_statistics(const std::string& path, const nlohmann::ordered_json& statistics);
 
-/// Where the picture of a scene goes when nobody says where: "scene.png" beside "scene.glb", and
-/// "cornell.png" in the current folder for the built-in scene of that name.
+/// The default path for the picture of a scene: "scene.png" beside "scene.glb", and "cornell.png"
+/// in the current folder for the built-in scene of that name.
 std::string picture_beside(const std::string& scene);
 
 }  // namespace lambent::cli

@@ -20,7 +20,7 @@ constexpr int kMaxImageSide = 16384;
 constexpr int kMinProbes = 2;
 constexpr int kMaxProbes = 4096;
 
-/// What people call usual sizes of pictures [pixels].
+/// A common name for a size of pictures [pixels].
 struct NamedSize {
   const char* name;
   int width, height;
@@ -29,7 +29,7 @@ constexpr NamedSize kSizes[] = {{"480p", 854, 480},    {"720p", 1280, 720},   {"
                                 {"1440p", 2560, 1440}, {"2160p", 3840, 2160}, {"4k", 3840, 2160},
                                 {"4320p", 7680, 4320}, {"8k", 7680, 4320}};
 
-// Brighter or darker by more stops shows white or black whatever the picture [stops].
+// With a larger exposure [stops], any picture is white or black.
 constexpr double kMaxStops = 64.0;
 
 /// The numbers between separators, or nothing if any part is not a number.
@@ -67,7 +67,7 @@ Expected<std::vector<int>> parse_ints(const std::string& option, const std::stri
   return numbers;
 }
 
-/// Sets what one "key=value" of a volume says. False where it says nothing that is understood.
+/// Sets one "key=value" of a volume. Returns false for an unknown key or a bad value.
 bool set_volume(const std::string& option, const std::string& key, const std::string& value,
                 ProbeVolume& volume) {
   if (key == "probes") {

@@ -11,14 +11,14 @@
 namespace lambent::cli {
 namespace {
 
-/// The subcommand that was being parsed, "field info" rather than "field".
+/// The innermost subcommand that was being parsed: "field info" rather than "field".
 const CLI::App& innermost(const CLI::App& app) {
   const CLI::App* command = &app;
   while (!command->get_subcommands().empty()) command = command->get_subcommands().back();
   return *command;
 }
 
-/// "lambent field info".
+/// The full name of a subcommand: "lambent field info".
 std::string full_name(const CLI::App& command) {
   const CLI::App* parent = command.get_parent();
   return parent == nullptr ? command.get_name() : full_name(*parent) + " " + command.get_name();
@@ -38,10 +38,10 @@ std::vector<std::string> subcommand_names(const CLI::App& command) {
   return names;
 }
 
-/// What was typed that the subcommand has no place for; empty: nothing.
+/// The first unexpected argument; empty: there is none.
 std::string unknown_word(const CLI::App& command) {
   const std::vector<std::string> extras = command.remaining();
-  // A flag is the cause, words after it may have been meant as its value
+  // Prefer an unknown flag, since words after it may be its value
   const auto flag = std::find_if(extras.begin(), extras.end(), [](const std::string& word) {
     return word.size() > 1 && word[0] == '-';
   });
@@ -55,7 +55,7 @@ std::string unknown_word(const CLI::App& command) {
   return "unknown subcommand '" + extras.front() + "'" + did_you_mean(extras.front(), known);
 }
 
-/// What must be there and is not; empty: nothing.
+/// A required argument that is missing; empty: there is none.
 std::string missing_word(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     if (!option->get_required() || option->count() > 0) continue;
@@ -80,7 +80,7 @@ std::string miscounted(const CLI::App& command, const std::string& said) {
              " times, and goes once";
     }
   }
-  // CLI11 begins what it says with the option's name
+  // CLI11's message begins with the option's name
   const std::string name = said.substr(0, said.find(':'));
   for (const CLI::Option* option : command.get_options()) {
     if (option->get_name() != name) continue;

@@ -10,8 +10,8 @@ class ParseError;
 
 namespace lambent::cli {
 
-/// What is wrong with a command line that `app` could not parse, in words that name what was typed,
-/// with the nearest known word in place of one that is unknown, and where to read more.
+/// An error message for a command line that `app` could not parse. It names the argument, suggests
+/// the nearest known word for an unknown one, and refers to the help.
 std::string explain(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace lambent::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lambent picture: a layer of an EXR as a display shows it.
+// lambent picture: converts a layer of an EXR to a display-encoded picture.
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lambent prepare: a scene in a file for machines that cannot read any other.
+// lambent prepare: writes a scene to a file for machines that cannot read other formats.
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
@@ -19,7 +19,7 @@
 namespace lambent::cli {
 namespace {
 
-// Textures are at most this long where nothing else is asked for: all that there are.
+// Default limit of textures' sizes [texels], which includes all textures.
 constexpr int kAnyTextureSize = 16384;
 
 struct Options {

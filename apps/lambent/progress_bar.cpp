@@ -15,14 +15,14 @@
 namespace lambent::cli {
 namespace {
 
-/// Stages that end within this [s] show nothing: nobody waits for them.
+/// Stages that end within this time [s] are not shown.
 constexpr double kQuietSeconds = 1.0;
-/// Least time between two drawings [s]: an eye follows no more, and terminals are slow.
+/// Least time between two redraws [s]: eyes cannot follow more, and terminals are slow.
 constexpr double kRedrawSeconds = 0.1;
 constexpr int kMinBarColumns = 10, kMaxBarColumns = 40;
-/// What is assumed of a terminal that does not tell.
+/// Assumed width of a terminal that does not report it.
 constexpr int kDefaultColumns = 80;
-/// Back to the start of the line, and erase it (ECMA-48 EL).
+/// Moves to the start of the line and erases it (ECMA-48 EL).
 constexpr std::string_view kWipe = "\r\x1b[K";
 
 int terminal_columns() {
@@ -46,7 +46,7 @@ std::string progress_line(std::string_view stage, double share_done, double elap
   if (share > 0.0)
     tail += "  " + whole_seconds_text(elapsed_seconds * (1.0 - share) / share) + " left";
 
-  // The bar takes what is left of the line, and goes first where the terminal is narrow.
+  // The bar takes the rest of the line, and is omitted first where the terminal is narrow.
   std::string line(stage);
   const int room = columns - static_cast<int>(line.size() + tail.size()) - 4;
   if (room >= kMinBarColumns) {
@@ -72,11 +72,12 @@ void ProgressBar::update(std::string_view stage, double share_done) {
   }
   if (share_done >= 1.0) {
     clear();
-    stage_.clear();  // The same stage may come again, say in the next frame, and starts anew.
+    // The same stage may come again, such as in the next frame, and then starts anew.
+    stage_.clear();
     return;
   }
   if (now - stage_start_ < kQuietSeconds || now - last_drawn_ < kRedrawSeconds) return;
-  // The last column stays free: writing there makes some terminals wrap.
+  // Leave the last column free, since writing there makes some terminals wrap.
   write_(std::string(kWipe) + progress_line(stage, share_done, now - stage_start_, columns_ - 1));
   last_drawn_ = now;
   drawn_ = true;

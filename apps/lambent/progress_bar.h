@@ -15,8 +15,8 @@ namespace lambent::cli {
 std::string progress_line(std::string_view stage, double share_done, double elapsed_seconds,
                           int columns);
 
-/// Draws the progress of one stage after another on one line of a terminal, and wipes it when a
-/// stage is done. Stages of under a second leave no trace.
+/// Draws the progress of successive stages on one line of a terminal, and erases it when a stage is
+/// done. Stages of under a second are not shown.
 class ProgressBar {
  public:
   using Clock = std::function<double()>;  ///< Seconds since some fixed moment.
@@ -28,7 +28,7 @@ class ProgressBar {
   ~ProgressBar() { clear(); }
 
   void update(std::string_view stage, double share_done);
-  /// Wipes the line, so that other output starts on a clean one.
+  /// Erases the line, so that other output starts on an empty one.
   void clear();
 
  private:
@@ -41,8 +41,8 @@ class ProgressBar {
   bool drawn_ = false;
 };
 
-/// Progress on stderr when that is a terminal and the program not quiet, silent otherwise. The line
-/// is wiped when the last copy of the function is gone.
+/// Shows progress on stderr if that is a terminal and the program is not quiet; silent otherwise.
+/// The line is erased when the last copy of the function is destroyed.
 ProgressFn terminal_progress();
 
 }  // namespace lambent::cli

@@ -11,7 +11,7 @@
 namespace lambent::cli {
 namespace {
 
-// Frames of a sequence over which light is averaged: each counts a tenth.
+// Frames of a sequence over which light is averaged, each with a weight of a tenth.
 constexpr int kAveragedFrames = 10;
 
 const std::map<std::string, Quality> kQualities = {
@@ -66,8 +66,8 @@ FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& siz
   frame.temporal_antialiasing = uses_taa(options);
   frame.seed = options.seed;
   if (options.samples > 0) frame.samples = options.samples;
-  // Gathering rays add a bounce to the field's. Where a number of bounces was asked for, there are
-  // none
+  // Gathering adds a bounce to those of the field, so it is off where the number of bounces is
+  // limited
   if (options.method != "field" || options.bounces >= 0) frame.gather_rays = 0;
   if (options.gather_rays >= 0) frame.gather_rays = options.gather_rays;
   if (leaves_out(options, "gather")) frame.gather_rays = 0;

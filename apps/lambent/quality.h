@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What --quality, --without, --samples and --gather make of a picture.
+// The settings that result from --quality, --without, --samples and --gather.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -21,11 +21,12 @@ void add_quality_options(CLI::App& command, RenderOptions& options);
 /// The quality of a name that --quality takes.
 Quality quality_from_name(const std::string& name);
 
-/// Settings of a picture of this size: those of the quality, where no other option says otherwise.
+/// Settings of a picture of this size: those of the quality, except where other options override
+/// them.
 FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& size);
 
-/// Settings of the field that lights a picture: those of the quality, where no other option says
-/// otherwise.
+/// Settings of the field that lights a picture: those of the quality, except where other options
+/// override them.
 Expected<FieldSettings> picture_field_settings(const RenderOptions& options, const Scene& scene);
 
 /// Whether the field is updated until its light is calm, not a fixed number of times.
@@ -37,7 +38,7 @@ bool uses_taa(const RenderOptions& options);
 /// Whether some of its light is filtered.
 bool is_filtered(const RenderOptions& options);
 
-/// Fails on options that each make sense, but not together.
+/// Fails on options that are valid individually, but not together.
 Expected<void> check_quality(const RenderOptions& options);
 
 /// Whether --without names a pass.

@@ -45,7 +45,7 @@ Expected<void> render_picture(const RenderOptions& options, const World& world,
   return renderer.verify(World(world.scene()), camera, stats);
 }
 
-/// The animation that the options name; -1: all of them.
+/// The index of the animation that the options name; -1: all of them.
 Expected<int> chosen_animation(const RenderOptions& options, const Scene& scene) {
   if (options.animation.empty()) return -1;
   std::vector<std::string> names;
@@ -56,7 +56,7 @@ Expected<int> chosen_animation(const RenderOptions& options, const Scene& scene)
   return fail("--animation", "", no_such("animation", options.animation, names));
 }
 
-/// Poses the scene at the time that the options ask for, a sequence's start included.
+/// Poses the scene at the time of the options, which may be a sequence's start.
 Expected<void> pose(const RenderOptions& options, int animation, Scene& scene) {
   if (options.time_s && scene.animations.empty()) {
     return fail("--time", "", "the scene has no animation that can be played");
@@ -114,7 +114,7 @@ Expected<void> render(const RenderOptions& options) {
           ? render_sequence(options, *scene, *animation, *view, world, renderer, stats)
           : render_picture(options, world, view->camera, renderer, stats);
   if (const auto silent = check_validation(device->get()); done && !silent) return silent;
-  // Of a sequence that was interrupted, what was done is told
+  // For an interrupted sequence, write the statistics of the finished frames
   if (options.stats.empty() || (!done && options.frames == 0)) return done;
   const auto told = write_statistics(options.stats, stats);
   return done ? told : done;

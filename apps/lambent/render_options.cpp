@@ -14,10 +14,11 @@
 namespace lambent::cli {
 namespace {
 
-// One probe's fewest rays; more rays than a probe has for as many probes as there can be.
+// Range of --ray-budget: from the least rays of one probe to more than all rays of the largest
+// field.
 constexpr std::int64_t kMinRayBudget = 32;
 constexpr std::int64_t kMaxRayBudget = std::int64_t{1} << 32;
-// From what a clock can tell to an hour [ms].
+// From the resolution of clocks to an hour [ms].
 constexpr double kMinTimeBudget = 0.1;
 constexpr double kMaxTimeBudget = 3.6e6;
 
@@ -168,7 +169,7 @@ Expected<void> check_options(const RenderOptions& options) {
     return fine;
   }
   if (uses_field(options)) {
-    // What is wrong with the volumes is told before the scene is read
+    // Report wrong volumes before the scene is read
     const auto fine = field_settings(options.field, {}, options.seed, options.bounces);
     if (!fine) return tl::unexpected(fine.error());
   }

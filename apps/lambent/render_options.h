@@ -20,20 +20,20 @@ class Option;
 
 namespace lambent::cli {
 
-/// Most samples a pixel that may be asked for. Typing errors are caught before they cost days: more
-/// samples leave no noise to see.
+/// Maximum of --samples. It catches typing errors before they cost days; with more samples no noise
+/// is visible anyway.
 inline constexpr int kMaxSamples = 1 << 20;
 
-/// What `lambent render` was asked for.
+/// The options of `lambent render`.
 struct RenderOptions {
   StageOptions stage;
-  std::string output;  // empty: beside the scene, until render has chosen
+  std::string output;  // empty until render chooses: beside the scene
   std::string method = "field";
   BackendOptions backend;
   std::string size = "1280x720";
-  std::string quality;               // empty: what suits the rest
+  std::string quality;               // empty: depends on the other options
   std::vector<std::string> without;  // passes
-  int samples = 0;                   // 0: the quality's, or the reference's own default
+  int samples = 0;                   // 0: the quality's, or the reference's default
   int gather_rays = -1;              // -1: the quality's
   int glossy_rows = -1;              // -1: the quality's
   int froxel_pixels = 0;             // 0: the quality's
@@ -52,30 +52,30 @@ struct RenderOptions {
   std::string animation;        // by index or name; empty: all at once
   int frames = 0;               // 0: one picture
   float fps = 24.0f;
-  std::uint64_t ray_budget = 0;  // of an update between frames; 0: none
-  double time_budget_ms = 0.0;   // likewise
+  std::uint64_t ray_budget = 0;  // of an update between frames; 0: no bound
+  double time_budget_ms = 0.0;   // of an update between frames [ms]; 0: no bound
   int frame_updates = 1;         // of the field, before each frame after the first
 
   FieldOptions field;
-  std::string field_file;  // to start from; empty: nothing
+  std::string field_file;  // to start from; empty: none
   int updates = -1;        // -1: the quality's
   bool converge = false;
-  std::string show_probes;                            // which aspect; empty: not
-  std::vector<const CLI::Option*> of_running_fields;  // what a field that frames share is asked
-  std::vector<const CLI::Option*> of_sequences;       // what means nothing to one picture
-  std::vector<const CLI::Option*> of_the_field;       // what means nothing to other methods
+  std::string show_probes;                            // the aspect to show; empty: none
+  std::vector<const CLI::Option*> of_running_fields;  // options only for a field shared by frames
+  std::vector<const CLI::Option*> of_sequences;       // options only for sequences
+  std::vector<const CLI::Option*> of_the_field;       // options only for methods with a field
 };
 
 /// Whether the method looks a field up ("field", "rsm+field").
 bool uses_field(const RenderOptions& options);
 
-/// Whether the layer "motion" is written: of a sequence's frames, with all other layers.
+/// Whether the layer "motion" is written: for sequences whose layers are written.
 bool keeps_motion(const RenderOptions& options);
 
 /// Declares all options on `command`; `options` must outlive it.
 void add_render_options(CLI::App& command, RenderOptions& options);
 
-/// Fails on options that each make sense, but not together.
+/// Fails on options that are valid individually, but not together.
 Expected<void> check_options(const RenderOptions& options);
 
 }  // namespace lambent::cli

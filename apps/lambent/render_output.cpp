@@ -15,13 +15,14 @@ namespace {
 
 constexpr const char* kFramePlace = "####";
 
-/// Rendered and written at a time: about 120 MB with all layers, and enough to keep all cores busy.
+/// Pixels that are rendered and written at a time: about 120 MB with all layers, and enough work
+/// for all cores.
 constexpr std::size_t kBandPixels = std::size_t{1} << 20;
-/// The same of pictures that are filtered, of which each band takes rows of its neighbours with it:
-/// about 1 GB.
+/// Pixels at a time for filtered pictures, where each band also needs rows of its neighbours: about
+/// 1 GB.
 constexpr std::size_t kFilteredBandPixels = std::size_t{1} << 21;
-/// Pictures of no more are kept until their exposure is known (400 MB, an 8K frame); of larger ones
-/// a small picture of the same view tells it.
+/// Pictures with at most this many pixels are stored until their exposure is known (400 MB, an 8K
+/// frame); for larger ones, it is found from a small picture of the same view.
 constexpr std::size_t kKeptPixels = std::size_t{1} << 25;
 
 std::size_t pixels_of(const glm::ivec2& size) {
@@ -120,7 +121,7 @@ Expected<void> PictureFile::write_exr_rows(const LayeredImage& rows) {
   return exr_->write(rows);
 }
 
-/// Adds rows to the .png or .jpg, which the first of them begin.
+/// Adds rows to the .png or .jpg, and opens the file with the first rows.
 Expected<void> PictureFile::add(const Image& shown) {
   if (has_ending(path_, ".png")) {
     if (!png_) {
@@ -138,7 +139,7 @@ Expected<void> PictureFile::add(const Image& shown) {
   return jpeg_->write(shown);
 }
 
-/// Writes rows as a display shows them.
+/// Writes rows, encoded for display.
 Expected<void> PictureFile::show(const Image& rows) {
   const ToneMap tone_map = *tone_map_from_name(options_.tone_map);
   const int at_once = rows_of_a_band(options_, size_);

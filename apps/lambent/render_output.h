@@ -20,31 +20,32 @@ Expected<void> check_outputs(const RenderOptions& options);
 /// Digits of a frame's number in its file's name, at least.
 inline constexpr std::size_t kFrameDigits = 4;
 
-/// Where a frame of a sequence goes: its number, of four digits or more, replaces the #### in the
-/// pattern's file name; where there is none, it stands before the ending.
+/// The path of a frame of a sequence: its number, with at least four digits, replaces the #### in
+/// the pattern's file name, or is inserted before the ending if there is none.
 std::string frame_path(const std::string& pattern, int frame);
 
 /// Whether a picture is rendered and written some rows at a time, because it has many pixels and
-/// the method can.
+/// the method supports it.
 bool made_in_bands(const RenderOptions& options, const glm::ivec2& size);
-/// How many rows at a time.
+/// The number of rows at a time.
 int rows_of_a_band(const RenderOptions& options, const glm::ivec2& size);
-/// Whether all rows of such a picture are kept until its exposure is known.
+/// Whether all rows of such a picture are stored until its exposure is known.
 bool keeps_all_rows(const RenderOptions& options, const glm::ivec2& size);
 
 /// A picture's file, written from the top, some rows at a time or all at once.
 class PictureFile {
  public:
-  /// The options and `stops` must outlive it. `stops` is the exposure of a .png or .jpg; none: it
-  /// is set to what the options ask for, so that the pictures of a sequence share one.
+  /// The options and `stops` must outlive it. `stops` is the exposure of a .png or .jpg. If it is
+  /// none, it is set by the options, so that the pictures of a sequence share one exposure.
   PictureFile(const RenderOptions& options, std::string path, const glm::ivec2& size,
               std::optional<float>& stops);
 
-  /// Whether the stops must be known before the first row, for want of memory to keep all rows.
+  /// Whether the stops must be known before the first row, since all rows would take too much
+  /// memory.
   bool needs_stops() const;
-  /// The next rows.
+  /// Writes the next rows.
   Expected<void> write(const LayeredImage& rows);
-  /// After the last row. Without it there is no file.
+  /// Completes the file after the last row. Without this call there is no file.
   Expected<void> finish();
 
  private:
@@ -59,8 +60,8 @@ class PictureFile {
   std::optional<ExrWriter> exr_;
   std::optional<PngWriter> png_;
   std::optional<JpegWriter> jpeg_;
-  Image kept_;                     // rows that wait for the stops
-  LuminanceHistogram luminances_;  // of these
+  Image kept_;                     // rows stored until the stops are known
+  LuminanceHistogram luminances_;  // of the stored rows
 };
 
 }  // namespace lambent::cli

@@ -17,10 +17,10 @@ const std::map<std::string, RsmLayout> kLayouts = {{"restructured", RsmLayout::r
                                                    {"sub-maps", RsmLayout::sub_maps},
                                                    {"full", RsmLayout::full}};
 
-// Whatever a float holds: the library says which numbers will do.
+// Any finite float: the library checks the ranges.
 constexpr double kAnyNumber = std::numeric_limits<float>::max();
 
-/// What a setting of the library is called on the command line. plane_tolerance has no option.
+/// The options that correspond to settings of the library. plane_tolerance has no option.
 constexpr std::pair<const char*, const char*> kOptionsOfSettings[] = {
     {"resolution", "--rsm-size"},      {"texels", "--rsm-texels"},
     {"sub_maps", "--sub-maps"},        {"sub_images", "--sub-images"},
@@ -28,7 +28,7 @@ constexpr std::pair<const char*, const char*> kOptionsOfSettings[] = {
     {"sub_blur_radius", "--sub-blur"}, {"visibility_rays", "--rsm-visibility"},
     {"downscale", "--rsm-downscale"},  {"direct_lights", "--rsm-direct-lights"}};
 
-/// An error of the library's, told of the option that the user typed.
+/// Converts an error of the library to one about the option that the user typed.
 Error in_options(Error error) {
   for (const auto& [setting, option] : kOptionsOfSettings) {
     if (error.place != setting) continue;
@@ -38,8 +38,8 @@ Error in_options(Error error) {
   return error;
 }
 
-/// Fails where options each make sense, but not together: as the library's check does, which names
-/// its own settings.
+/// Fails on options that are valid individually, but not together, as the library's check does, but
+/// with the names of options.
 Expected<void> check_together(const RsmSettings& s) {
   if (s.sub_maps > 0 && s.sub_images % s.sub_maps != 0) {
     return fail("--sub-images", "",
@@ -64,13 +64,13 @@ Expected<void> check_together(const RsmSettings& s) {
   return {};
 }
 
-/// A copy of a scene in which directional, point and spot lights alone shine.
+/// A copy of a scene with directional, point and spot lights as the only light.
 Scene without_other_light(Scene scene) {
   scene.environment = {};
   for (Material& material : scene.materials) {
     material.emission = glm::vec3(0.0f);
     if (!material.unlit) continue;
-    // Unlit surfaces emit their colour and reflect nothing
+    // Unlit surfaces emit, so make them black
     material.unlit = false;
     material.lambert = true;
     material.base_color = glm::vec4(glm::vec3(0.0f), material.base_color.a);
@@ -84,7 +84,7 @@ void add_rsm_options(CLI::App& command, RsmOptions& o) {
   command.option_defaults()->group("Reflective shadow maps, for --method rsm and rsm+field");
   const std::size_t others = command.get_options().size();
   RsmSettings& s = o.settings;
-  // Ranges are the library's to check; here a value must be a number
+  // The library checks ranges; here a value must only be a number
   const auto count = [&command](const char* name, int& value, const char* what) {
     command.add_option(name, value, what)
         ->check(whole_number())
@@ -179,7 +179,7 @@ Expected<void> check_rsm_use(const RsmOptions& options, const std::string& metho
 }
 
 std::string slow_gather(const RsmSettings& settings, std::size_t lights) {
-  // As many as sixteen lights have by default
+  // As many as for sixteen lights by default
   constexpr std::size_t kMany = 16384;
   const auto texels = static_cast<std::size_t>(settings.texels);
   if (settings.from_camera || settings.merge_maps || lights * texels <= kMany) return {};

@@ -21,8 +21,8 @@ struct RsmOptions {
   std::string pattern = "whole";
   std::string layout = "restructured";
   bool no_final_blur = false, no_shuffle = false, no_view_importance = false;
-  std::vector<const CLI::Option*> options;  // what means nothing to other methods
-  const CLI::Option* radius = nullptr;      // which means nothing to the other pattern
+  std::vector<const CLI::Option*> options;  // options only for methods with maps
+  const CLI::Option* radius = nullptr;      // only for RsmPattern::disk
 };
 
 void add_rsm_options(CLI::App& command, RsmOptions& options);
@@ -41,17 +41,17 @@ Expected<RsmSettings> rsm_settings(const RsmOptions& options, const std::string&
 Expected<void> check_rsm_use(const RsmOptions& options, const std::string& method, int bounces,
                              int gather_rays, bool converge);
 
-/// What to tell of a gather of so many lights that there are faster ways to; empty: nothing.
+/// A hint for a gather of so many lights that there are faster settings; empty: none.
 std::string slow_gather(const RsmSettings& settings, std::size_t lights);
 
-/// The first bounce of directional, point and spot lights alone, for the field of a whole scene to
-/// be freed of: a field over a copy of the scene without other light. Updated as often as the
-/// other, with the same rays, it shares the other's noise.
+/// The world of a field with only the first bounce of directional, point and spot lights, which is
+/// subtracted from the field of the whole scene: a copy of the scene without other light. If both
+/// fields are updated equally often, with the same rays, their noise cancels.
 class FirstBounce {
  public:
   explicit FirstBounce(const Scene& scene);
   const World& world() const { return world_; }
-  /// The other field's settings, for one bounce.
+  /// The whole scene's field settings, limited to one bounce.
   static FieldSettings settings(FieldSettings settings);
 
  private:

@@ -33,7 +33,7 @@ Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int a
     const Expected<WorldChanges> changes = world.update();
     if (!changes) return tl::unexpected(changes.error());
 
-    // A camera of the scene moves along; any other stays where it is
+    // A camera of the scene follows the animation; any other does not move
     if (view.from == View::From::scene) {
       Expected<Camera> moved = camera_of_scene(options.stage, scene);
       if (!moved) return tl::unexpected(moved.error());

@@ -9,10 +9,10 @@
 
 namespace lambent::cli {
 
-/// Renders the frames that the options ask for, of an animation (-1: all at once). `world` is of
-/// `scene`, which is posed anew for each frame. Statistics of each go into the list
+/// Renders the frames of the options, with an animation (-1: all at once). `world` is the world of
+/// `scene`, which is posed for each frame. Statistics of each frame are added to the list
 /// stats["frames"], also of those before a failure. The first interrupt (Ctrl-C) ends the sequence
-/// after the frame at hand, the second one at once. `view` is that of the first frame.
+/// after the current frame, the second one at once. `view` is that of the first frame.
 Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int animation, View view,
                                World& world, FrameRenderer& renderer,
                                nlohmann::ordered_json& stats);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lambent scenes: the built-in ones.
+// lambent scenes: lists the built-in scenes.
 #include "scenes/builtin.h"
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lambent serve: one shared scene, whose light is kept up to date and sent to clients.
+// lambent serve: keeps the light of one shared scene up to date, and sends it to clients.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
@@ -39,10 +39,10 @@ constexpr const char* kExamples =
     "  lambent serve scene.glb --light-from light.example.org --port 8081\n"
     "  lambent serve scene.glb --host 0.0.0.0 --tokens tokens --certificate c.pem --key k.pem\n";
 
-// Frames over which light is averaged, as in sequences: each counts a tenth.
+// Frames over which light is averaged, as in sequences, each with a weight of a tenth.
 constexpr int kAveragedFrames = 10;
 
-/// What pictures are like, of the largest size.
+/// Settings of pictures, with the largest size.
 FrameSettings frame_settings(const ServeOptions& options) {
   FrameSettings frame = quality_settings(quality_from_name(options.quality));
   frame.seed = options.seed;
@@ -110,7 +110,7 @@ Expected<void> check(const ServeOptions& options) {
   return {};
 }
 
-/// The scene as a file that clients may be given.
+/// The scene as a file for clients.
 Expected<std::shared_ptr<const std::string>> shared_scene(const Scene& scene) {
   begin_step("writing the scene for clients");
   Expected<std::string> bytes = scenes::encode_glb(scene);
@@ -119,7 +119,7 @@ Expected<std::shared_ptr<const std::string>> shared_scene(const Scene& scene) {
   return std::make_shared<const std::string>(std::move(*bytes));
 }
 
-/// Serves until somebody ends it.
+/// Serves until the program is interrupted.
 template <class Served>
 Expected<void> serve_world(const ServeOptions& options, const Served& served,
                            stream::ServerSettings settings) {
@@ -141,13 +141,13 @@ Expected<void> serve_world(const ServeOptions& options, const Served& served,
   return {};
 }
 
-/// Clients of pictures at a time, at most.
+/// Maximum number of clients of pictures at a time.
 std::size_t picture_clients(const ServeOptions& options) {
   return options.picture_clients < 0 ? options.server.max_clients
                                      : static_cast<std::size_t>(options.picture_clients);
 }
 
-/// What the server is told of the options, where the light is updated so often a second.
+/// The server's settings from the options. `rate` is the number of updates of the light per second.
 stream::ServerSettings server_settings(const ServeOptions& options,
                                        const stream::PictureSettings& pictures, float rate) {
   stream::ServerSettings settings = options.server;
@@ -155,7 +155,7 @@ stream::ServerSettings server_settings(const ServeOptions& options,
   settings.world.rate = rate;
   settings.world.pictures = pictures;
   constexpr double kMsOfSecond = 1000.0;
-  // No picture keeps the light waiting for much longer than an update's interval, in the mean
+  // On average, no picture should delay the light by much more than an update's interval
   stream::PaceLimits& limits = settings.world.pictures.limits;
   if (rate > 0.0f) {
     limits.picture_ms = std::min(limits.picture_ms, 2.0 * kMsOfSecond / static_cast<double>(rate));
@@ -166,7 +166,7 @@ stream::ServerSettings server_settings(const ServeOptions& options,
   return settings;
 }
 
-/// The view that the options ask for, with a picture's proportions.
+/// The view of the options, with a picture's aspect.
 Expected<View> served_view(const ServeOptions& options, const World& world,
                            const glm::uvec2& size) {
   const glm::vec2 pixels(size);
@@ -184,7 +184,7 @@ Expected<void> serve_relayed(const ServeOptions& options, const stream::PictureS
   if (!scene) return tl::unexpected(scene.error());
   begin_step("preparing the scene for rays");
   World world(*scene);
-  // The other server chose its first light by its own view
+  // The other server chose its first light by its own view, so choose it here by the same view
   const Camera theirs = stream::camera_of(welcome.camera);
   const auto light = add_first_light(options.stage.light, theirs, *scene, world);
   if (!light) return tl::unexpected(light.error());
@@ -203,7 +203,7 @@ Expected<void> serve_relayed(const ServeOptions& options, const stream::PictureS
                      server_settings(options, pictures, welcome.rate));
 }
 
-/// Serves the scene in light that is computed here.
+/// Serves the scene in light that is computed locally.
 Expected<void> serve_own(const ServeOptions& options, const stream::PictureSettings& pictures) {
   begin_step("reading the scene");
   Expected<Scene> scene = open_stage(options.stage);
@@ -231,7 +231,7 @@ Expected<void> serve_own(const ServeOptions& options, const stream::PictureSetti
                      server_settings(options, pictures, options.server.world.rate));
 }
 
-/// Where light is published besides, if anywhere.
+/// Reads the address of the broker to which light is also published, if any.
 Expected<void> read_publish(ServeOptions& options) {
   if (options.publish.empty()) return {};
   stream::ConnectSettings parsed;

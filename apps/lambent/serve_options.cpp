@@ -108,8 +108,8 @@ void add_world_options(CLI::App& command, ServeOptions& o) {
       ->type_name("WxH");
 }
 
-/// Where the light comes from elsewhere, nothing says how to compute it: no option of the field,
-/// which are those from `first_of_field` on.
+/// Adds --light-from. If the light comes from another server, options of the field, which are those
+/// from `first_of_field` on, are refused.
 void add_light_from(CLI::App& command, ServeOptions& o, std::size_t first_of_field) {
   std::vector<CLI::Option*> of_own_light = command.get_options();
   of_own_light.erase(of_own_light.begin(),

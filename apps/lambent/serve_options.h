@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options of lambent serve.
+// The options of `lambent serve`.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class App;
 
 namespace lambent::cli {
 
-/// What `lambent serve` is told.
+/// The values of these options.
 struct ServeOptions {
   StageOptions stage;
   FieldOptions field;
@@ -36,7 +36,7 @@ struct ServeOptions {
   int threads = 0;  // 0: all
 };
 
-/// Declares them on `command`; `options` must outlive it.
+/// Declares the options on `command`; `options` must outlive it.
 void add_serve_options(CLI::App& command, ServeOptions& options);
 
 }  // namespace lambent::cli

@@ -29,7 +29,7 @@ Expected<void> parse_server_address(const std::string& option, const std::string
   }
   if (text.ends_with("/")) text.pop_back();
   const std::size_t colon = text.rfind(':');
-  // Colons within brackets are of an IPv6 address
+  // Colons within brackets belong to an IPv6 address
   if (colon != std::string::npos && text.find(']', colon) == std::string::npos) {
     const auto port = finite_number(text.substr(colon + 1));
     const auto number = static_cast<std::uint16_t>(port.value_or(0.0));

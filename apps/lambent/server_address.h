@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which server is meant, and what it asks for.
+// Parsing of server addresses, and reading of tokens.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 namespace lambent::cli {
 
 /// "HOST", "HOST:PORT", either after http:// or https://, or nats://HOST[:PORT]/NAME, into `to`.
-/// `option` names the culprit in the error.
+/// Parses a server's address into `to`. `option` is named in errors.
 Expected<void> parse_server_address(const std::string& option, const std::string& address,
                                     stream::ConnectSettings& to);
 
-/// The token that a file holds; empty for the empty path.
+/// Reads the token in a file; empty for the empty path.
 Expected<std::string> read_token(const std::string& path);
 
 }  // namespace lambent::cli

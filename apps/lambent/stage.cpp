@@ -21,7 +21,7 @@ namespace lambent::cli {
 namespace {
 
 constexpr float kDefaultFov = 45.0f;  // vertical [degrees]
-// Narrower and wider views show nothing that people would recognize [degrees].
+// Range of fields of view [degrees], beyond which nothing is recognisable.
 constexpr float kSmallestFov = 1.0f, kLargestFov = 170.0f;
 
 Expected<Camera> named_camera(const std::string& wanted, const Scene& scene) {
@@ -142,7 +142,8 @@ std::string describe(const View& view) {
     return view.camera.name.empty() ? "the scene's" : "the scene's '" + view.camera.name + "'";
   }
   const glm::vec3 eye(view.camera.world_from_view[3]);
-  // Somebody who copies the options gets the same view: the target is far enough to keep direction
+  // The printed options give the same view: the target is far enough away to preserve the direction
+  // in rounded numbers
   const glm::vec3 target =
       eye - std::max(glm::length(eye), 1.0f) * glm::vec3(view.camera.world_from_view[2]);
   char text[256];

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is rendered, from where and in which light: the options that every rendering subcommand
-// shares.
+// Scene, view and light: the options that all rendering subcommands share.
 #pragma once
 
 #include <optional>
@@ -29,32 +28,32 @@ struct StageOptions {
   std::string materials = "gltf";
   bool no_normal_maps = false;
   std::string fog;      // empty: the scene's own
-  bool no_fog = false;  // the scene's own is left out
+  bool no_fog = false;  // omit the scene's own
 };
 
-/// What is there and in which light, without from where.
+/// Adds the options of scene and light, without those of the view.
 void add_scene_options(CLI::App& command, StageOptions& options);
-/// All of it.
+/// Adds the options of scene, light and view.
 void add_stage_options(CLI::App& command, StageOptions& options);
 
-/// The scene with the lights that the options name. Tells on stderr of the loader's warnings.
+/// Opens the scene, with the lights of the options. Prints the loader's warnings on stderr.
 Expected<Scene> open_stage(const StageOptions& options);
 
-/// From where a scene is seen, and who says so.
+/// The camera of a picture, and how it was chosen.
 struct View {
   enum class From { options, scene, inside, outside };
   Camera camera;
   From from = From::scene;
 };
 
-/// The camera that the options ask for, else the scene's first, else one that shows the scene
+/// The camera of the options, else the scene's first, else one that first_view chooses
 /// (lambent/first_picture.h). `aspect` is the picture's width over its height.
 Expected<View> choose_view(const StageOptions& options, const World& world, float aspect);
 
 /// The camera of the scene that the options name, else its first, of which there must be one.
 Expected<Camera> camera_of_scene(const StageOptions& options, const Scene& scene);
 
-/// Who chose the view, in words; of one that we chose also the options that give it again.
+/// Describes how the view was chosen; if by the program, also the options that reproduce it.
 std::string describe(const View& view);
 
 }  // namespace lambent::cli

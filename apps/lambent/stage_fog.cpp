@@ -12,7 +12,8 @@ namespace {
 
 constexpr const char* kOption = "--fog";
 
-// A scene that is flat would hold no fog: each edge of the box is this share of the longest.
+// Each edge of the box is at least this share of the longest, since the box of a flat scene would
+// contain no fog.
 constexpr float kLeastEdge = 0.1f;
 
 }  // namespace

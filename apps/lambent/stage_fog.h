@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fog that a scene is rendered with.
+// The option --fog.
 #pragma once
 
 #include <string>

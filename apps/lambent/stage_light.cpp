@@ -14,7 +14,7 @@
 namespace lambent::cli {
 namespace {
 
-// Length of --sun below which its direction would drown in rounding.
+// Length of --sun below which its direction would be lost in rounding.
 constexpr float kMinDirection = 1e-6f;
 
 bool names_light(const LightOptions& options) {
@@ -33,7 +33,7 @@ Expected<void> add_sun(const LightOptions& options, Scene& scene) {
   }
   const auto direction = parse_vec3("--sun", options.sun);
   if (!direction) return tl::unexpected(direction.error());
-  // In double, where no vector of floats is too long for its square
+  // In double, where squares of floats do not overflow
   const glm::dvec3 way(*direction);
   if (glm::length(way) < kMinDirection) return fail("--sun", "", "the direction has no length");
   glm::vec3 irradiance = kFirstSunIrradiance;
@@ -92,7 +92,7 @@ std::string describe(FirstLight light, const Scene& scene) {
     case FirstLight::scene:
       break;
   }
-  // glTF files have no sky: where a sun is all they bring, shade and windows are black
+  // glTF files have no sky: with only a sun, shadows and windows would be black
   const bool has_sun = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& each) {
     return each.type == Light::Type::directional;
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In which light a scene is rendered: the options, and what becomes of them.
+// The options of a scene's light, and their application.
 #pragma once
 
 #include <string>
@@ -26,12 +26,12 @@ struct LightOptions {
 
 void add_light_options(CLI::App& command, LightOptions& options);
 
-/// Adds the sun and sets the sky that the options name; takes the scene's own lights and sky away
-/// where they say so.
+/// Adds the sun and sets the sky of the options; removes the scene's own lights and sky where they
+/// request it.
 Expected<void> add_asked_light(const LightOptions& options, Scene& scene);
 
-/// Adds the light that the options leave to the program, as the camera's view needs it, and has the
-/// world follow. `scene` is the world's. Returns what lights the scene, in words.
+/// Adds the light that the options leave to the program, as the camera's view needs it, and updates
+/// the world. `scene` is the world's scene. Returns a description of the light.
 Expected<std::string> add_first_light(const LightOptions& options, const Camera& camera,
                                       Scene& scene, World& world);
 

@@ -3,11 +3,11 @@
 
 namespace lambent::cli {
 
-/// Notes what the program does from now on, as "reading the scene": what is told where memory runs
-/// out. `doing` must live on.
+/// Sets the current step of the program, such as "reading the scene", which is reported where
+/// memory runs out. `doing` must remain valid.
 void begin_step(const char* doing);
 
-/// What was begun last.
+/// The current step.
 const char* current_step();
 
 }  // namespace lambent::cli

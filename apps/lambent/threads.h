@@ -5,10 +5,10 @@
 
 namespace lambent::cli {
 
-// More is a typing error.
+// Maximum of --threads; larger numbers are typing errors.
 inline constexpr int kMaxThreads = 1024;
 
-/// Limits all parallel work to a number of threads while it lives; 0: no limit.
+/// Limits all parallel work to a number of threads while it exists; 0: no limit.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);

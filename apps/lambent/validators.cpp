@@ -14,7 +14,7 @@
 namespace lambent::cli {
 namespace {
 
-/// The value that all of a text is, or nothing. A plus sign may stand before it.
+/// The value of a whole text, or nothing. It may begin with a plus sign.
 template <class T>
 std::optional<T> value_of(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
@@ -35,7 +35,7 @@ std::string refusal(const std::string& text, const std::string& wanted) {
   return "'" + text + "' is not " + wanted;
 }
 
-/// `fits` says which finite numbers will do, `wanted` names them.
+/// `fits` tests finite numbers; `wanted` describes the valid ones.
 template <class Fits>
 CLI::Validator finite(std::string wanted, Fits fits) {
   const auto check = [wanted = std::move(wanted), fits](std::string& text) -> std::string {
@@ -71,7 +71,7 @@ CLI::Validator number(double low, double high) {
 }
 
 CLI::Validator number_above_zero(double high) {
-  // As a float: less than its smallest number is read as 0
+  // Test as a float, since numbers below the smallest float become 0
   return finite("a number above 0, up to " + text_of(high),
                 [high](double value) { return static_cast<float>(value) > 0.0f && value <= high; });
 }

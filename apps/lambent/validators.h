@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What values of options may be. Each option with a number or a choice has one of these, so that a
-// value that will not do is refused in one way: by the option's name, with what would do.
+// Validators of option values. Each option with a number or a choice has one of these, so that all
+// invalid values are refused with the same message: the option's name, and the valid values.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,7 +13,8 @@
 
 namespace lambent::cli {
 
-/// The number that all of a text is, in decimal, or nothing; "nan" and "inf" are no numbers.
+/// The number that a whole text represents, in decimal, or nothing; "nan" and "inf" are not
+/// numbers.
 std::optional<double> finite_number(std::string_view text);
 
 /// Whole numbers from `low` to `high`.
@@ -29,10 +30,10 @@ CLI::Validator number(double low, double high);
 /// Finite numbers above 0, up to `high`.
 CLI::Validator number_above_zero(double high);
 
-/// One of some words; the nearest of them is offered in place of another.
+/// One of some words; for others, the error suggests the nearest.
 CLI::Validator one_of(std::vector<std::string> known);
 
-/// What one_of says of a word that it does not know; empty where it knows the word.
+/// The message of one_of for an unknown word; empty for a known one.
 std::string unlike_any_of(const std::string& word, const std::vector<std::string>& known);
 
 }  // namespace lambent::cli

@@ -37,7 +37,7 @@ std::string bytes_text(double bytes) {
 }
 
 std::string whole_seconds_text(double seconds) {
-  constexpr double kMostSeconds = 1e9;  // 30 years, which fits any long
+  constexpr double kMostSeconds = 1e9;  // 30 years, which fits into any long
   const long whole = std::lround(std::clamp(seconds, 0.0, kMostSeconds));
   const long minutes = whole / kSecondsPerMinute, hours = minutes / kMinutesPerHour;
   if (minutes == 0) return formatted("%ld s", whole);
@@ -46,7 +46,7 @@ std::string whole_seconds_text(double seconds) {
 }
 
 std::string seconds_text(double seconds) {
-  constexpr double kTwoDigits = 10.0;  // [s] below which hundredths are of interest
+  constexpr double kTwoDigits = 10.0;  // [s] below which hundredths are printed
   if (seconds < kTwoDigits) return formatted("%.2f s", seconds);
   // From here on "%.1f" would print 60.0
   constexpr double kRoundsToMinute = 59.95;

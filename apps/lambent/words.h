@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quantities in words for people.
+// Formatting of quantities for display.
 #pragma once
 
 #include <cstddef>
@@ -33,8 +33,8 @@ std::string exposure_text(float stops);
 /// terminal as an escape sequence.
 std::string printable(const std::string& text);
 
-/// What to say of a name or index that no thing of a scene has: "no camera 'hal'; the scene has 2
-/// cameras: 0 'door', 1 'hall'; did you mean 'hall'?". `kind` is what such things are.
+/// The error for a name or index that does not exist in a scene: "no camera 'hal'; the scene has 2
+/// cameras: 0 'door', 1 'hall'; did you mean 'hall'?". `kind` is the kind of object.
 std::string no_such(const std::string& kind, const std::string& wanted,
                     const std::vector<std::string>& names);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a budget of rays buys.
+// The error of light for a budget of rays.
 #include <array>
 #include <cstdio>
 #include <limits>
@@ -10,18 +10,18 @@ namespace lambent::dynamics {
 namespace {
 
 constexpr int kPixels = 64;
-// Of the picture that says what is seen: not the points that are measured.
+// Width of the picture for UpdateRequest::seen, whose points are not the measured ones.
 constexpr int kSeenPixels = 37;
 constexpr int kReferenceSamples = 1024;
 
-// Errors to reach, and after how many updates, or how many times the rays of the uniform schedule,
-// a schedule is given up that has not.
+// Errors to reach, and the limits of updates, and of rays relative to the uniform schedule, after
+// which a schedule has failed.
 constexpr std::array kTargets = {0.08, 0.04, 0.03};
 constexpr int kMaxUpdateCount = 400;
 constexpr std::uint64_t kMaxTimes = 2;
-constexpr std::uint64_t kAdaptiveBudget = 100000;  // rays a frame
+constexpr std::uint64_t kAdaptiveBudget = 100000;  // rays per frame
 
-/// Rays that a full update traces, of all kinds.
+/// Number of rays of all kinds in a full update.
 std::uint64_t full_rays(Subject& subject) {
   const UpdateStatistics statistics = subject.field.update(subject.world);
   return statistics.probe_rays + statistics.shadow_rays;
@@ -52,13 +52,13 @@ void print_curve(const std::string& name) {
   }
 }
 
-/// Where the error against what a field settles to stood after so many probe rays.
+/// The error relative to the settled field after a number of probe rays.
 struct Mark {
   std::uint64_t rays;
   double error;
 };
 
-/// Follows a fresh field until the error is not above `target`, or so many rays are spent.
+/// Updates a fresh field until the error is at most `target`, or a number of rays is spent.
 std::vector<Mark> follow_error(Subject& subject, const UpdateRequest& request,
                                std::span<const FieldQuery> points, std::span<const double> settled,
                                double target, std::uint64_t most_rays) {
@@ -73,7 +73,7 @@ std::vector<Mark> follow_error(Subject& subject, const UpdateRequest& request,
   return marks;
 }
 
-/// Rays after which the error was no longer above `target`; 0: it never was.
+/// Rays after which the error stayed at or below `target`; 0: never.
 std::uint64_t rays_to(std::span<const Mark> marks, double target) {
   for (const Mark& mark : marks) {
     if (mark.error <= target) return mark.rays;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What updates cost beside one another.
+// Comparison of the costs of updates.
 #include <cstdio>
 
 #include "bench/dynamics/subject.h"
@@ -22,7 +22,8 @@ void compare_costs(const std::string& name, const std::string& label, FieldSetti
     full.add(watch.lap());
   }
   for (int i = 0; i < kRepetitions; ++i) {
-    // Up and down in turn; the update after an edit that follows no other traces no probe ray
+    // Brighten and dim in turn. The update after an edit traces no probe rays if the one before was
+    // not an edit
     const float factor = i % 2 == 0 ? 1.5f : 1.0f / 1.5f;
     for (Light& light : subject.scene.lights) light.intensity *= factor;
     for (Material& material : subject.scene.materials) material.emission *= factor;
@@ -30,7 +31,7 @@ void compare_costs(const std::string& name, const std::string& label, FieldSetti
     Stopwatch watch;
     subject.field.update(subject.world);
     lights_only.add(watch.lap());
-    // Traces every probe, and so ends the row of edits
+    // Trace every probe, so that the next edit does not follow another
     subject.field.update(subject.world);
   }
   std::printf("| %s | %.2f |\n", label.c_str(), lights_only.value() / full.value());
@@ -61,7 +62,7 @@ void measure_growth() {
     FieldSettings settings;
     settings.probe_budget = probes;
     Subject house("house", settings);
-    // Serve every probe once, so that frames are as in the middle of things
+    // Trace every probe once, so that frames are in a steady state
     const UpdateRequest request{kBudget, 0.0, house.scene.cameras[0].world_from_view[3]};
     for (std::uint64_t rays = 0; rays < 33ull * house.field.probes(); rays += kBudget) {
       house.field.update(house.world, request);

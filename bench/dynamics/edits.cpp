@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How soon light follows an edit.
+// The number of updates until light has followed an edit.
 #include <cstdio>
 
 #include "bench/dynamics/subject.h"

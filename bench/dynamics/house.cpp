@@ -10,11 +10,11 @@ namespace lambent::dynamics {
 namespace {
 
 constexpr int kUpdatesBefore = 12;
-// The truth: fields that differ in the lamp alone, and share all random numbers, so that their
-// difference is the lamp's and not noise.
+// The reference: fields that differ only in the lamp, and share all random numbers, so that their
+// difference is the lamp's light and not noise.
 constexpr int kTruthUpdates = 4;
 constexpr int kTruthRays = 256;
-// A probe changes where its mean light does by so much.
+// Relative change of a probe's mean light from which it counts as changed.
 constexpr double kChange = 0.01;
 
 /// Mean of each probe's irradiance over its tile and the channels.
@@ -68,8 +68,8 @@ void measure_house() {
     house.scene.lights[edit.lamp].intensity *= edit.factor;
     house.apply_edits();
     house.field.update(house.world);
-    // A budget of one ray pays for no probe; stale ones in open air, which are free, go on
-    // following
+    // A budget of one ray suffices for no probe, but stale probes in open air, which cost nothing,
+    // are still updated
     while (house.field.update(house.world, {.ray_budget = 1}).probes_invalidated > 0) continue;
     const std::vector<double> after = probe_light(house.field);
     const std::vector<double> true_after = true_light(house);

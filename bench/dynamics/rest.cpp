@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much light at rest wavers from frame to frame.
+// The fluctuation of light from frame to frame where nothing changes.
 #include <cmath>
 #include <cstdio>
 
@@ -10,10 +10,10 @@ namespace {
 
 constexpr int kFrames = 64;
 constexpr int kPixels = 96;
-constexpr std::uint64_t kBudget = 100000;  // rays a frame
+constexpr std::uint64_t kBudget = 100000;  // rays per frame
 
-/// Standard deviation of each point's light over the frames, over its mean; root mean square over
-/// the points, and the largest.
+/// Prints the relative standard deviation of each point's light over the frames: root mean square
+/// over the points, and the largest.
 void waver(const std::string& name, const std::string& label, int updates_before) {
   Subject subject(name, {});
   const UpdateRequest request{kBudget, 0.0, std::nullopt};
@@ -35,7 +35,7 @@ void waver(const std::string& name, const std::string& label, int updates_before
   for (std::size_t p = 0; p < points.size(); ++p) {
     const double mean = sum[p] / kFrames;
     const double variance = std::max(squares[p] / kFrames - mean * mean, 0.0);
-    // What is black next to the rest of the picture has no colour to waver
+    // Fluctuations of nearly black points are not visible
     const double coefficient = std::sqrt(variance) / std::max(mean, 0.01 * mean_light);
     total += coefficient * coefficient;
     largest = std::max(largest, coefficient);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is seen of cascades that follow a walking viewer.
+// Visible changes of light when cascades follow a walking viewer.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -18,7 +18,7 @@ constexpr int kFrames = 200;
 constexpr float kStep = 0.023f;  // [m]: 1.4 m/s at 60 Hz
 constexpr std::uint64_t kBudget = 100000, kSettlingBudget = 1000000;
 
-/// Largest changes of E at any point, over its mean, in some updates.
+/// Largest relative changes of E at any point in some updates.
 struct Changes {
   int count = 0, probes = 0;
   double largest = 0.0, sum = 0.0;
@@ -36,7 +36,7 @@ struct Changes {
   }
 };
 
-/// The light at some points, and how much it changes.
+/// The light at some points, and its changes.
 class Watched {
  public:
   Watched(const Subject& subject)
@@ -46,7 +46,7 @@ class Watched {
     for (const double e : light_) mean_ += e / static_cast<double>(light_.size());
   }
 
-  /// Largest change since the last call, over the mean.
+  /// Largest relative change since the last call.
   double change() {
     const std::vector<double> now = light_at(subject_.field, points_);
     double largest = 0.0;
@@ -80,7 +80,7 @@ void walk(const std::string& name, float spacing) {
   for (int i = 0; i < kSettledUpdates; ++i) update(0);
   for (int i = 0; i < kSettledUpdates; ++i) update(kSettlingBudget);
 
-  // In each frame the volumes move first, with a budget that pays for no probe
+  // In each frame the volumes move first, with a budget that suffices for no probe
   Changes scrolls, moves, traces, standing;
   Watched watched(subject);
   for (int frame = -kStandingFrames; frame < kFrames; ++frame) {

@@ -11,7 +11,7 @@
 namespace lambent::dynamics {
 namespace {
 
-// What a field is held to have settled to.
+// Updates and rays of the field that counts as settled.
 constexpr int kSettledUpdates = 48;
 constexpr int kSettledRays = 512;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an update and a frame of quality "interactive" take while something moves: medians.
+// Median times of an update and a frame of quality "interactive" while something moves.
 #include <cstdio>
 #include <cstdlib>
 #include <glm/gtc/matrix_transform.hpp>
@@ -20,11 +20,11 @@ namespace lambent::bench {
 namespace {
 
 constexpr int kUpdatesBefore = 8;
-// The first frames have no history, and updates do not know their cost yet.
+// Frames that are not counted: they have no history, and updates have not measured their cost yet.
 constexpr int kFramesBefore = 3, kFrames = 8;
 constexpr double kUpdateBudget = 30.0;  // [ms]
 
-/// A scene whose field is lit, from where pictures are taken of it.
+/// A scene with a field and a renderer.
 struct Subject {
   explicit Subject(Scene made)
       : scene(std::move(made)),
@@ -50,7 +50,7 @@ void print(const Table& table) {
   }
 }
 
-/// Moves something and makes a frame, again and again.
+/// Alternately moves something and renders a frame.
 template <class Move>
 Table measure(Subject& subject, const Camera& camera, double update_budget_ms, Move move) {
   IndirectSources sources;
@@ -85,7 +85,7 @@ Table measure(Subject& subject, const Camera& camera, double update_budget_ms, M
   return table;
 }
 
-/// The nave of Sponza, where it is there, under a sun that moves by half a degree a frame.
+/// The nave of Sponza, if available, under a sun that moves by half a degree per frame.
 void measure_sun() {
   const char* shared = std::getenv("LAMBENT_SHARED");
   const std::string folder = shared != nullptr ? shared : "../shared";
@@ -102,8 +102,7 @@ void measure_sun() {
   }));
 }
 
-/// The tall block of the Cornell box, which moves by 2 cm a frame; updates have all the time that
-/// they need.
+/// The tall block of the Cornell box, which moves by 2 cm per frame; updates have no time limit.
 void measure_block() {
   constexpr double kEnough = 10000.0;  // [ms]
   Subject subject(open_stage("cornell"));

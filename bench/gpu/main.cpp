@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the passes of a field and of frames on a Vulkan device, and checks them against what the
-// CPU backend found earlier, on another machine maybe.
+// Measures the passes of a field and of frames on a Vulkan device, and compares them to results of
+// the CPU backend, possibly from another machine.
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -22,7 +22,8 @@ int report(const Error& error) {
   return error.kind == Error::Kind::bad_input ? kBadUsageOrInput : kFailed;
 }
 
-/// Compares each result with what was expected of that name. Returns how many are too far off.
+/// Compares each result with the expected one of that name. Returns the number that differ by more
+/// than the tolerance.
 int compare(const std::vector<Result>& found, const std::vector<Result>& expected) {
   int bad = 0;
   std::printf("\n| result | relative RMSE | bar |\n|---|---|---|\n");

@@ -15,17 +15,17 @@
 namespace lambent::bench {
 namespace {
 
-// Frames before the first that counts: they make buffers and pipelines.
+// Frames that are not counted, which create buffers and pipelines.
 constexpr int kWarmUp = 3;
 
-// Rays of a probe in an update: of McGuire's talk (GDC 2019), and where there are twice as many
-// probes (Majercik et al., JCGT 8(2), 2019).
+// Rays per probe in an update: as in McGuire's talk (GDC 2019), and for twice as many probes
+// (Majercik et al., JCGT 8(2), 2019).
 constexpr int kRays = 144, kRaysOfMany = 64;
 
-// A field that is updated a little in each frame traces this share of its rays.
+// A field with partial updates traces one in this many of its rays per frame.
 constexpr int kFramesAnUpdate = 8;
 
-/// What updates of a field take, pass by pass.
+/// Times of updates of a field, by pass.
 struct UpdateTimes {
   Median trace, shade, solve_bounces, blend, place, all, rays;
 
@@ -57,7 +57,7 @@ UpdateTimes time_updates(const World& world, IrradianceField& field, int frames,
   return times;
 }
 
-/// Medians of a frame's passes, by name, in no order.
+/// Medians of a frame's passes, by name.
 std::map<std::string, Median> time_frames(const World& world, const IndirectSources& sources,
                                           const FrameSettings& settings, int frames) {
   std::map<std::string, Median> passes;
@@ -72,8 +72,8 @@ std::map<std::string, Median> time_frames(const World& world, const IndirectSour
   return passes;
 }
 
-/// Restructuring, gathering and blurring. Making maps, choosing their texels and finding what the
-/// camera sees are the same however light is gathered.
+/// The time of restructuring, gathering and blurring. Rendering maps, choosing their texels and the
+/// primary rays are the same for all gathers.
 double gathering(const std::map<std::string, Median>& passes) {
   double sum = 0.0;
   for (const char* name : {"rsm.gather", "rsm.sub_blur", "rsm.interleave"}) {
@@ -133,7 +133,7 @@ class Bench {
     add(std::to_string(field.probes()) + " probes x 64 rays: all", times.all.value(), "<= 2.6");
   }
 
-  /// Tiles of 8x8 and 16x16 texels, gutters included.
+  /// Tiles of 8x8 and 16x16 texels, including gutters.
   void large_tiles() {
     FieldSettings settings;
     settings.probe_budget = options_.probes;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What passes take on a device.
+// Times of passes on a device.
 #pragma once
 
 #include <string>
@@ -14,11 +14,11 @@ struct Row {
   std::string what;
   double value = 0.0;
   std::string unit;
-  std::string bar;  ///< What it is held to; empty: nothing.
+  std::string bar;  ///< The target; empty: none.
 };
 
-/// All rows, of a world on a device. Times are medians over frames of what the device's timestamps
-/// tell of each pass.
+/// Measures all rows, for a world on a device. Times are medians over frames of the device's
+/// timestamps of each pass.
 std::vector<Row> measure(const World& world, const Options& options);
 
 }  // namespace lambent::bench

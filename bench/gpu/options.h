@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the bench is asked to do.
+// The options of the bench.
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@ namespace lambent::bench {
 
 struct Options {
   std::string scene;  ///< A prepared scene.
-  std::string save;   ///< Where to write what the CPU backend finds; empty: measure.
-  std::string check;  ///< What it found; empty: nothing is compared.
+  std::string save;   ///< Path for results of the CPU backend; empty: measure.
+  std::string check;  ///< Path of these results; empty: no comparison.
   int device = -1;    ///< Index; -1: the first that can be opened.
   int width = 1920, height = 1080;
-  int probes = 4096;  ///< About so many.
-  int frames = 200;   ///< Medians are over so many.
+  int probes = 4096;  ///< Approximate number.
+  int frames = 200;   ///< Number of frames of each median.
   bool validation = false;
 };
 

@@ -16,7 +16,7 @@
 namespace lambent::bench {
 namespace {
 
-// A picture and a field that a processor makes in seconds.
+// Sizes with which a processor takes seconds.
 constexpr int kWidth = 320, kHeight = 180;
 constexpr int kMapResolution = 64;
 constexpr int kProbes = 512, kRays = 64, kUpdates = 4;
@@ -62,7 +62,7 @@ std::vector<Result> find_results(const World& world) {
   results.push_back({"field at its probes", floats_of(light)});
 
   if (world.scene().lights.empty()) return results;
-  // Every texel of small maps: where some are chosen, rounding may choose others
+  // Gather every texel of small maps, since rounding may affect the choice of texels
   RsmSettings rsm;
   rsm.resolution = kMapResolution;
   rsm.texels = 0;
@@ -88,7 +88,7 @@ Expected<std::vector<Result>> load_results(const std::string& path) {
   const Expected<std::vector<std::byte>> bytes = read_file(path);
   if (!bytes) return tl::unexpected(bytes.error());
   ByteReader reader(*bytes);
-  // How many things of a size come next; more than there can be: the file is broken
+  // Number of the following objects of a size; larger than possible if the file is broken
   const auto count = [&](std::size_t size) -> std::size_t {
     const std::size_t words = reader.left() >= 4 ? reader.u32() : reader.left() + 1;
     return words * size <= reader.left() ? words : std::numeric_limits<std::size_t>::max();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Direct light the plain way, to compare with: one light drawn by power, one shadow ray.
+// Direct light by the simplest method, as a baseline: one light drawn by power, and one shadow ray.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ class ByPower {
  public:
   explicit ByPower(const World& world);
 
-  /// As direct_irradiance with one sample; `round` picks the random numbers.
+  /// Like lambent's direct_irradiance with one sample; `round` selects the random numbers.
   void direct_irradiance(std::span<const DirectLightQuery> queries, std::uint32_t round,
                          std::span<glm::vec3> irradiance) const;
 

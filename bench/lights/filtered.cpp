@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures how far filtered direct light is off: prints a row of a Markdown table for each scene.
+// Measures the error of filtered direct light: prints a row of a Markdown table for each scene.
 //
 // usage: lambent_filtered_lights SCENE...    built-in names or glTF files
 #include <cstdio>
@@ -17,8 +17,8 @@ namespace lambent::bench {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 180;
-// Shadow rays of the truth, through the same points of the pixels: what is left of its noise is a
-// sixteenth of that of four.
+// Shadow rays of the reference, through the same points of the pixels. Its noise is a sixteenth of
+// that of four rays.
 constexpr int kManyRays = 1024;
 constexpr int kFrames = 16, kAveragedFrames = 10;
 
@@ -26,7 +26,7 @@ Scene open_scene(const std::string& name) {
   return value_or_throw(scenes::is_name(name) ? scenes::make(name) : load_scene(name));
 }
 
-/// Direct light alone, at the middles of pixels.
+/// Settings for direct light only, at the centres of pixels.
 FrameSettings one_sample(Quality quality) {
   FrameSettings settings = quality_settings(quality);
   settings.width = kWidth;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures direct light of the scene `lamps`, at the points that its camera sees: what it costs as
-// lights and emissive triangles grow in number, and its noise beside drawing by power.
+// Measures direct light of the scene `lamps`, at the points that its camera sees: the cost as the
+// numbers of lights and emissive triangles grow, and the noise compared to drawing lights by power.
 //
 // usage: lambent_lights [REPETITIONS]    of each measurement (9); the median counts
 #include <algorithm>
@@ -23,14 +23,14 @@ namespace lambent::bench {
 namespace {
 
 constexpr int kWidth = 160, kHeight = 90;
-// Rounds that the variance of a point is found from.
+// Rounds from which the variance of a point is estimated.
 constexpr int kRounds = 64;
 
-/// What the camera looks at [m].
+/// Target of the camera [m].
 constexpr glm::vec3 kMiddle(0.0f, 5.0f, 75.0f);
 
-/// The scene `lamps` with so many of its lights and lanterns: those closest to what the camera
-/// looks at. A single light is a point light.
+/// The scene `lamps` with only some of its lights and lanterns: those closest to the camera's
+/// target. A single light is a point light.
 Scene thinned(std::size_t lights, std::size_t lanterns) {
   Scene scene = value_or_throw(scenes::make("lamps"));
   if (lights == 1)
@@ -101,7 +101,7 @@ double median_ms(const Stage& stage, const Estimator& estimate, int repetitions)
   std::vector<glm::vec3> out(stage.points.size());
   Median ms;
   for (int i = 0; i < repetitions; ++i) {
-    // Time of the processor, which other programs do not lengthen; all of it is of one thread
+    // Processor time, which other programs do not affect; only one thread runs
     const std::clock_t begin = std::clock();
     estimate(static_cast<std::uint32_t>(i), out);
     ms.add(1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);

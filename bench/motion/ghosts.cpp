@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is left of what was there: of a bright box that moves, and of a lamp that goes out.
+// Ghosts of earlier frames: of a bright box that moves, and of a lamp that goes out.
 #include <algorithm>
 #include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>
@@ -10,7 +10,7 @@
 namespace lambent::motion {
 namespace {
 
-// Frames after which little may be left.
+// Frames after which ghosts are measured.
 constexpr int kAfter = 4;
 constexpr int kMostFrames = 16;
 
@@ -20,11 +20,11 @@ float luminance_at(const Image& image, int x, int y) {
 }
 
 struct Left {
-  double mean = 0.0, largest = 0.0;  ///< Of the old light, over pixels that were bright.
+  double mean = 0.0, largest = 0.0;  ///< Share of the old light, over pixels that were bright.
 };
 
-/// Whether a pixel or one beside it shows more light than others: what is there is the edge of
-/// something bright, not a ghost.
+/// Whether the light of a pixel differs from that of its neighbours: excess light there is the edge
+/// of something bright, not a ghost.
 bool is_near_edge(const Image& truth, int x, int y, float step) {
   float least = luminance_at(truth, x, y), most = least;
   for (int dy = -1; dy <= 1; ++dy) {
@@ -38,8 +38,8 @@ bool is_near_edge(const Image& truth, int x, int y, float step) {
   return most - least > step;
 }
 
-/// Of pixels that were much brighter `kAfter` frames ago than they should be now, what is too much
-/// now over what was too much then.
+/// For pixels that were much brighter `kAfter` frames ago than they should be now, the ratio of the
+/// excess light now to that then.
 Left left_over(const Image& then, const Image& now, const Image& truth) {
   double too_much = 0.0, was_too_much = 0.0;
   Left left;
@@ -64,7 +64,7 @@ Left left_over(const Image& then, const Image& now, const Image& truth) {
   return left;
 }
 
-/// A box of light that crosses the court of the atrium, some pixels a frame.
+/// An emissive box that crosses the court of the atrium, some pixels per frame.
 void measure_box() {
   Subject subject("atrium");
   Material shining;
@@ -115,7 +115,7 @@ void measure_box() {
               100.0 * worst.largest);
 }
 
-/// All lamps of a scene go out at once but for a hundredth.
+/// All lamps of a scene drop to a hundredth at once.
 void measure_lamp(const char* name) {
   Subject subject(name);
   IndirectSources sources;

@@ -14,9 +14,9 @@
 namespace lambent::motion {
 namespace {
 
-// Of the field that lights pictures: enough that their light is at rest.
+// Updates of the field, enough for its light to settle.
 constexpr int kUpdates = 8;
-// Of the pictures that frames are held against: a thirtieth of an edge's contrast is left.
+// Samples of reference pictures: the error at edges is a thirtieth of their contrast.
 constexpr int kTruthSamples = 32;
 constexpr int kBlock = 8;
 

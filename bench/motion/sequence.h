@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the measurements of pictures in motion share: sequences of frames beside what each should
-// show, and how far the two are apart.
+// Common parts of the measurements of pictures in motion: sequences of frames, their references,
+// and the differences.
 #pragma once
 
 #include <functional>
@@ -17,22 +17,22 @@ namespace lambent::motion {
 inline constexpr int kWidth = 160, kHeight = 90;
 inline constexpr int kFrames = 32;
 
-/// A scene that is lit, and may be edited.
+/// A lit scene that can be edited.
 struct Subject {
   explicit Subject(const std::string& name);
-  /// The scene as it is; field and world follow.
+  /// Updates world and field after edits of the scene.
   void apply_edits();
 
   Scene scene;
   World world;
   IrradianceField field;
-  Camera camera;  ///< The scene's first; of files, one that shows the scene.
+  Camera camera;  ///< The scene's first; for files, one that shows the scene.
 };
 
-/// A frame of a sequence: puts the camera, and may edit the scene.
+/// Returns the camera of a frame, and may edit the scene.
 using Step = std::function<Camera(int frame, Subject& subject)>;
 
-/// Errors of a frame against the mean of many samples of the same light.
+/// Errors of a frame, relative to the mean of many samples of the same light.
 struct FrameError {
   double per_pixel = 0.0, blocks = 0.0;  ///< Relative RMSE, of pixels and of 8x8 means.
   double flip = 0.0;
@@ -41,19 +41,19 @@ struct FrameError {
 FrameError error_of(const Image& picture, const Image& truth);
 FrameError mean_of(const std::vector<FrameError>& errors);
 
-/// The picture that one frame of many samples shows.
+/// The reference: a frame with many samples.
 Image truth_of(const Subject& subject, const Camera& camera);
 
-/// Settings of the frame with this number, one sample a pixel.
+/// Settings of the frame with this number, with one sample per pixel.
 FrameSettings settings_of(int frame, bool antialiased);
 
-/// The rows, each a function that prints a table. Where LAMBENT_PICTURES names a folder, the frames
-/// are written there as well.
-void measure_walk();    ///< A walk and a turn against the camera at rest.
-void measure_still();   ///< What flickers where nothing moves.
-void measure_ghosts();  ///< What is left behind of what moved or went out.
+/// The rows, each a function that prints a table. If LAMBENT_PICTURES names a folder, the frames
+/// are written there, too.
+void measure_walk();    ///< A walk and a turn, compared to a camera at rest.
+void measure_still();   ///< Flicker where nothing moves.
+void measure_ghosts();  ///< Ghosts of objects that moved and lights that went out.
 
-/// Writes a frame as a .png, where LAMBENT_PICTURES names a folder.
+/// Writes a frame as a .png if LAMBENT_PICTURES names a folder.
 void keep_picture(const Image& picture, const std::string& name, int frame);
 
 }  // namespace lambent::motion

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames of a camera that walks and turns, and of one that rests, against the mean of many samples.
+// Frames of a camera that walks and turns, and of one at rest, compared to the mean of many
+// samples.
 #include <cmath>
 #include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>
@@ -12,7 +13,8 @@ namespace {
 
 // A step of a person at 30 frames a second [m], and a turn of the head [rad].
 constexpr float kStep = 0.045f, kTurn = 0.015f;
-// Every so many frames are held against the truth, but for the first ones: the history fills.
+// One in kEvery frames is compared to the reference, after the first ones, in which the history
+// fills.
 constexpr int kEvery = 4, kFirstFrames = 7;
 
 Camera walk(const Camera& start, int frame) {

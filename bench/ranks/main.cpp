@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long a bake takes on several ranks, had each a core of its own: the processor time of the
-// slowest rank between two exchanges, summed up, without the exchanges themselves. Ranks are
-// threads here, so that other programs on the machine do not change what is measured.
+// The time that a bake would take on several ranks with a core each: the sum of the slowest rank's
+// processor times between exchanges, without the exchanges themselves. Ranks are threads here, so
+// that other programs on the machine do not affect the result.
 //
 // usage: lambent_rank_times SCENE UPDATES PROBES
 #include <tbb/global_control.h>
@@ -30,7 +30,7 @@ double thread_ms() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-/// Ranks that note how long this one worked between exchanges.
+/// Ranks that record this rank's processor time between exchanges.
 class TimedRanks final : public Ranks {
  public:
   explicit TimedRanks(Ranks& ranks) : ranks_(ranks) {}
@@ -55,7 +55,7 @@ class TimedRanks final : public Ranks {
   double since_ = thread_ms();
 };
 
-/// Time of so many updates on so many ranks [ms].
+/// Time of `updates` updates on `count` ranks [ms].
 double time_of(const World& world, const FieldSettings& settings, int updates, int count) {
   std::vector<std::vector<double>> stretches(count);
   test::run_as_ranks(count, [&](Ranks& threads) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// lambent_stream_churn: a server whose clients come and die, all the time, beside some that stay.
-// Fails where those that stay miss an update, or the server grows.
+// lambent_stream_churn: a server whose clients constantly connect and are killed, while some stay.
+// Fails if clients that stay miss an update, or the server's use of resources grows.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -59,7 +59,7 @@ struct Sample {
   int descriptors = 0;
 };
 
-/// The middle of the samples from a share of the time to another.
+/// The median of the samples between two shares of the time.
 Sample middle(const std::vector<Sample>& samples, double from, double to) {
   const auto at = [&](double share) {
     return samples.begin() +
@@ -77,7 +77,8 @@ Sample middle(const std::vector<Sample>& samples, double from, double to) {
   return {rss[rss.size() / 2], static_cast<int>(descriptors[descriptors.size() / 2])};
 }
 
-/// Clients that stay, once all of them have light. Throws where the server does not answer.
+/// Connects the clients that stay, and waits until all have light. Throws where the server does not
+/// answer.
 std::unique_ptr<LightClients> join_staying(const Options& options) {
   constexpr std::chrono::seconds kPatience{120};
   Address address;

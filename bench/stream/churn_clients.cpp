@@ -19,7 +19,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-// The lamp that they all turn, of its own light.
+// Range of factors on the intensity of the lamp that all clients change.
 constexpr float kDimmest = 0.3f, kBrightest = 1.5f;
 
 std::vector<std::byte> random_bytes(std::mt19937& random) {
@@ -39,7 +39,7 @@ void answer(stream::Client& client, const stream::Message& message) {
   }
 }
 
-/// Behaves, and changes the lamp again and again.
+/// A correct client that changes the lamp repeatedly.
 void take_part(const stream::ConnectSettings& server, std::uint32_t wants, std::mt19937& random) {
   stream::Hello hello;
   hello.wants = wants;
@@ -60,14 +60,14 @@ void take_part(const stream::ConnectSettings& server, std::uint32_t wants, std::
     next = Clock::now() + 150ms;
     const float share = std::uniform_real_distribution<float>(kDimmest, kBrightest)(random);
     lamp.input = camera.input + 1;
-    // Of the light as it is now, so that it neither fades away nor grows for ever
+    // Clamp the intensity, so that it neither vanishes nor grows without bound
     lamp.intensity = glm::clamp(share * full, glm::vec3(1.0f), glm::vec3(100.0f));
     camera.input = lamp.input + 1;
     if (!client.send(lamp) || !client.send(camera)) return;
   }
 }
 
-/// Writes what is no request, again and again.
+/// Repeatedly writes bytes that are not a request.
 void write_garbage(const stream::ConnectSettings& server, std::mt19937& random) {
   const int file = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
@@ -82,7 +82,7 @@ void write_garbage(const stream::ConnectSettings& server, std::mt19937& random) 
   }
 }
 
-/// Says hello, then what is no message, or is cut short.
+/// Sends a Hello, then invalid or truncated messages.
 void break_messages(const stream::ConnectSettings& server, std::mt19937& random) {
   stream::Hello hello;
   hello.wants = stream::kWantsLight;
@@ -114,7 +114,7 @@ void ChurnClients::live(Kind kind, std::uint32_t seed) const {
       take_part(server_, stream::kWantsPicture, random);
       break;
     case mute: {
-      // Reads nothing of what it asked for
+      // Reads none of the data that it requested
       const auto joined = stream::join(server_, stream::Hello{});
       ::pause();
       break;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clients that come and die, each a process of its own, so that it can be killed as processes are.
+// Clients that are started and killed, each in a process of its own, so that it can be killed by a
+// signal.
 #pragma once
 
 #include <sys/types.h>
@@ -16,19 +17,19 @@ namespace lambent::stream_load {
 
 class ChurnClients {
  public:
-  /// What they do until they are killed.
+  /// Behaviour of a client until it is killed.
   enum Kind : std::uint8_t { light, pictures, mute, silent, garbage, broken_messages, kKinds };
-  /// Behaviours and times of life are drawn from the seed.
+  /// Behaviours and lifetimes are random, from the seed.
   ChurnClients(stream::ConnectSettings server, std::uint32_t seed)
       : server_(std::move(server)), random_(seed) {}
-  /// Kills all that are left.
+  /// Kills all remaining clients.
   ~ChurnClients();
   ChurnClients(const ChurnClients&) = delete;
   ChurnClients& operator=(const ChurnClients&) = delete;
 
-  /// Kills whose time has come, and lets one more come where there are fewer than this.
+  /// Kills clients whose lifetime has ended, and starts one if there are fewer than `most`.
   void step(std::size_t most);
-  /// So many came of each kind.
+  /// Number of clients started of each kind.
   const std::array<int, kKinds>& came() const { return came_; }
   int killed() const { return killed_; }
 

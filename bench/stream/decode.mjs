@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // usage: decode.mjs LIGHT_DECODER.wasm RECORDING
-// How long the light decoder takes in WebAssembly, of a recording that `lambent_light_stream record` wrote.
+// Times of the light decoder in WebAssembly, for a recording of `lambent_light_stream record`.
 import { readFileSync } from 'node:fs';
 import { readRecording } from '../../tests/browser/recording.mjs';
 import { LightDecoder } from '../../web/lambent-three/light_decoder.js';
 
-const KIND_AT = 6; // in a message, docs/stream-light.md
+const KIND_AT = 6; // offset in a message, docs/stream-light.md
 const KINDS = ['', 'geometry', 'key', 'delta'];
 const REPETITIONS = 5; // the first ones compile
 

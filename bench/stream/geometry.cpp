@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a client gets first.
+// The messages that a client receives first.
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -11,8 +11,9 @@
 
 namespace lambent::light_stream {
 
-/// Root mean square of what lookups of two fields differ by, over the mean of the first, at places
-/// and in directions spread over a box [%]. Light is the same to 1 %; distances differ, too.
+/// Root mean square of the difference between lookups of two fields, over the mean of the first, at
+/// places and in directions spread over a box [%]. The light differs by up to 1 %; distances
+/// differ, too.
 double difference_of_lookups(const IrradianceField& field, const IrradianceField& other,
                              const Bounds& bounds) {
   constexpr std::size_t kQueries = 20'000;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // usage: latency.mjs PROGRAM [INPUTS [SCENE]]
-// How long it takes from an input in the browser until the first picture that shows it has been decoded: lambent serve
-// and Chromium on this machine, 640x360. Needs npm ci in tests/browser.
+// The time from an input in the browser until the first picture that shows it has been decoded,
+// with `lambent serve` and Chromium on this machine, 640x360. Needs npm ci in tests/browser.
 import { launch, until } from '../../tests/browser/chromium.mjs';
 import { Server } from '../../tests/browser/server.mjs';
 
-const MARGIN = 16; // of the page, around the picture
+const MARGIN = 16; // of the page around the picture
 const [program, inputs = '300', scene] = process.argv.slice(2);
 
-/// Runs in the page: turns the wheel at random times and notes when what happened.
+/// Runs in the page: turns the wheel at random times and records the times of events.
 async function measure(count) {
   const canvas = document.querySelector('#picture');
   const inputs = [];
@@ -28,7 +28,8 @@ async function measure(count) {
   return { inputs, pictures: window.pictures, size: [canvas.width, canvas.height] };
 }
 
-/// Runs in the page before its own scripts: notes inputs that leave and pictures that come (docs/protocol.md).
+/// Runs in the page before its own scripts: records sent inputs and received pictures
+/// (docs/protocol.md).
 function watch() {
   const CAMERA = 3, PICTURE = 66;
   window.pictures = [];
@@ -66,7 +67,8 @@ await server.end('SIGTERM');
 const at = (values, share) => [...values].sort((a, b) => a - b)[Math.round(share * (values.length - 1))];
 const seen = found.inputs.filter((input) => input.ms !== undefined);
 const ms = seen.map((input) => input.ms);
-// Which of the pictures that came after an input is the one that shows it: load changes how long they take, not how many
+// The number of pictures after an input until the one that shows it: load affects their time, not
+// their number
 const which = seen.map(({ at: from, number }) =>
   found.pictures.filter((picture) => picture.at >= from).findIndex((picture) => picture.input >= number) + 1);
 const share = (most) => ((100 * which.filter((one) => one <= most).length) / which.length).toFixed(1);

@@ -31,12 +31,13 @@ using PlainStream = beast::tcp_stream;
 using TlsStream = beast::ssl_stream<PlainStream>;
 using stream::LightMessageKind;
 
-// Where a message of light has what clients without a decoder look at: docs/protocol.md and
+// Types and offsets in messages of light that clients without a decoder read: docs/protocol.md and
 // docs/stream-light.md.
 constexpr std::uint32_t kLightType = 67, kWelcomeType = 65;
 constexpr std::size_t kKindAt = 8, kPayloadAt = 28, kGeometryAt = kPayloadAt + 24;
 
-// Clients that connect at a time: more would wait in the server's backlog, and be timed there.
+// Number of clients that connect at a time: more would wait in the server's backlog, which would
+// affect the measurement.
 constexpr int kConnecting = 32;
 
 struct Shared {
@@ -116,7 +117,7 @@ class OneClient {
     ByteReader light(message.subspan(kKindAt));
     const auto kind = static_cast<LightMessageKind>(light.u32());
     const std::uint64_t update = light.u64();
-    // Corrections name the geometry that they came to be with
+    // The geometry of corrections is the one with which they appeared, so skip them
     if (kind != LightMessageKind::corrections) {
       geometry_ = ByteReader(message.subspan(kGeometryAt)).u64();
     }
@@ -152,7 +153,7 @@ class OneClient {
     seen.join_ms.push_back(since_start_ms());
   }
 
-  /// Of the first client, at its beginning.
+  /// Records a milestone of the first client.
   void tell(const char* what, std::size_t bytes = 0) {
     constexpr std::size_t kMost = 64;
     if (number_ != 0 || shared_.seen.first_join.size() >= kMost) return;
@@ -170,7 +171,7 @@ class OneClient {
     const auto& bytes = outgoing_.front();
     socket_.async_write(boost::asio::buffer(bytes.data(), bytes.size()),
                         [this](beast::error_code error, std::size_t) {
-                          if (error) return;  // reading fails, too
+                          if (error) return;  // reading then fails, too
                           outgoing_.pop_front();
                           if (!outgoing_.empty()) write();
                         });
@@ -226,7 +227,7 @@ class Clients : public LightClients {
   const Seen& seen() const override { return shared_.seen; }
 
  private:
-  Shared shared_;  // outlives the clients, whose handlers it may still hold but never runs again
+  Shared shared_;  // outlives the clients: it may still contain their handlers, but never runs them
   const int decode_every_;
   int waiting_ = 0;
   std::vector<std::unique_ptr<OneClient<Stream>>> clients_;

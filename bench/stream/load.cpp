@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// lambent_stream_load: how many clients of light a server keeps up with. Prints the tables of
-// docs/serve.md. The server runs beside it and is told apart by its process.
+// lambent_stream_load: the number of clients of light that a server can serve. Prints the tables of
+// docs/serve.md. The server runs in a separate process, whose usage is measured.
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
@@ -19,7 +19,7 @@ namespace {
 struct Options {
   Address address;
   std::vector<int> clients = {1, 100, 250, 500, 1000};
-  int server = 0;  // its process
+  int server = 0;  // the server's process
   int decode_every = 100;
   double seconds = 5.0;
   bool timeline = false;
@@ -31,7 +31,7 @@ double percentile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-/// Waits until all clients have light, or no more come. Whether they have.
+/// Waits until all clients have light, or no more get it. Returns whether all have it.
 bool wait_for_all(LightClients& clients, std::size_t count) {
   constexpr std::chrono::seconds kPatience{120};
   const auto end = std::chrono::steady_clock::now() + kPatience;
@@ -69,7 +69,7 @@ int run(const Options& options) {
     const std::vector<double> joins(
         clients->seen().join_ms.begin() + static_cast<std::ptrdiff_t>(first_join),
         clients->seen().join_ms.end());
-    clients->run_for(std::chrono::seconds(1));  // those that came last catch up
+    clients->run_for(std::chrono::seconds(1));  // the last clients catch up
     const Seen before = clients->seen();
     const ProcessUsage from = usage_of(options.server);
     const auto start = std::chrono::steady_clock::now();

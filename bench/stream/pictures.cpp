@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures that a client renders from a stream beside those of the server's own field.
+// Comparison of pictures that a client renders from a stream to those of the server's own field.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -13,15 +13,16 @@ namespace lambent::light_stream {
 namespace {
 
 constexpr int kUpdates = 24, kSize = 128;
-// Of a stream that is so exact that what geometry rounds shows beside it.
+// Target error of a stream, so small that the rounding of geometry is visible.
 constexpr float kTargetError = 0.002f;
 
-/// How indirect light of two pictures differs.
+/// Differences of the indirect light of two pictures.
 struct Difference {
-  double mean = 0.0;        ///< Of the first one [W/(m^2 sr)].
-  double ratio = 0.0;       ///< Of the second one's mean to that.
-  double relative = 0.0;    ///< Root mean square, over the mean [%].
-  double dark = 0.0;        ///< The same of differences over the pixel and a tenth of the mean [%].
+  double mean = 0.0;      ///< Mean of the first one [W/(m^2 sr)].
+  double ratio = 0.0;     ///< Ratio of the second one's mean to that.
+  double relative = 0.0;  ///< Root mean square, over the mean [%].
+  /// Root mean square of differences, each over the pixel plus a tenth of the mean [%].
+  double dark = 0.0;
   double thousandth = 0.0;  ///< Exceeded by one such difference in a thousand [%].
 };
 
@@ -56,7 +57,7 @@ void measure(const std::string& name) {
   const Scene scene = bench::open_stage(name);
   const World world(scene);
   FieldSettings settings;
-  settings.corrections = false;  // which are rounded, too, and learned in noise
+  settings.corrections = false;  // they are rounded, too, and noisy
   IrradianceField field =
       bench::value_or_throw(IrradianceField::make(settings, open_bounds(world)));
   for (int i = 0; i < kUpdates; ++i) field.update(world);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a process has taken so far, all of its threads together.
+// Resources that a process has used so far, with all of its threads.
 #pragma once
 
 #include <sys/types.h>
@@ -25,7 +25,7 @@ inline ProcessUsage usage_of(pid_t process) {
   std::string text(std::istreambuf_iterator<char>(file), {});
   const std::size_t name_end = text.rfind(')');
   if (name_end == std::string::npos) return {};
-  // What follows on the name, which may hold anything, in parentheses
+  // Skip the name in parentheses, which may contain anything
   std::istringstream fields(text.substr(name_end + 2));
   constexpr int kUserTime = 11, kResident = 21;  // counted from the state on
   std::vector<double> numbers;
@@ -39,7 +39,7 @@ inline ProcessUsage usage_of(pid_t process) {
           numbers[kResident] * static_cast<double>(sysconf(_SC_PAGESIZE)) / kBytesOfMb};
 }
 
-/// Files and sockets that it has open.
+/// Number of its open files and sockets.
 inline int descriptors_of(pid_t process) {
   std::error_code ignored;
   const std::filesystem::directory_iterator files("/proc/" + std::to_string(process) + "/fd",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What streams of light take.
+// The data rates of light streams.
 #include <cstdio>
 
 #include "bench/stream/scenes.h"
@@ -7,10 +7,10 @@
 namespace lambent::light_stream {
 namespace {
 
-// All of the atrium's day at 8.7 degrees/s.
+// States of the atrium's whole day at 8.7 degrees/s.
 constexpr int kStates = 108;
 
-// About what two cores trace in the time of a state.
+// Approximate number of rays that two cores trace in the time of a state.
 constexpr std::uint64_t kRealTimeRays = 100'000;
 
 double raw_mbit_s(const IrradianceField& field) {

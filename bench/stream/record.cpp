@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stream to measure other decoders with.
+// Records a stream for measurements of other decoders.
 #include <cstdio>
 
 #include "bench/stage.h"

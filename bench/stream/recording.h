@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stream of light in a file, with what a client decodes of it: for decoders that are built by
-// other compilers. Of each message its size, itself, and the checksum of LightTextures after it,
-// all numbers little-endian words of 32 bits.
+// A stream of light in a file, with checksums of the decoded light, for tests of decoders built by
+// other compilers. Each message is preceded by its size and followed by the checksum of
+// LightTextures; all numbers are little-endian words of 32 bits.
 #pragma once
 
 #include <fstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a client gets of a large field.
+// The data that a client receives of a large field.
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -15,7 +15,7 @@ namespace {
 // The house is 20 m wide, of rooms of 5 m.
 const glm::ivec3 kProbes(64, 10, 64);
 constexpr int kStates = 32, kFirstUpdates = 4;
-constexpr std::uint64_t kRays = 400'000;  // what four times as many cores trace
+constexpr std::uint64_t kRays = 400'000;  // as many as four times as many cores would trace
 
 struct Cost {
   std::uint64_t bytes = 0, first = 0;
@@ -57,7 +57,7 @@ void measure_regions() {
     return emission;
   }();
   for (int state = 0; state <= kStates; ++state) {
-    // All lamps swell and fade
+    // All lamps brighten and dim
     const float share = 0.6f + 0.4f * std::cos(0.16f * static_cast<float>(state));
     for (std::size_t i = 0; i < lamps.size(); ++i) scene.materials[i].emission = share * lamps[i];
     bench::value_or_throw(world.update());

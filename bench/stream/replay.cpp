@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lambent_stream_replay: plays a session that `lambent serve --record` wrote to a server.
+// lambent_stream_replay: replays a session of `lambent serve --record` to a server.
 #include "stream/session/replay.h"
 
 #include <CLI/CLI.hpp>

@@ -17,7 +17,7 @@ constexpr double kPi = 3.14159265358979;
 constexpr double kDaySeconds = 20.0, kDegreesPerDaySecond = 1.66 * 180.0 / kPi / kDaySeconds;
 constexpr double kFastSun = 8.7;  // [degrees/s]
 constexpr double kSlowSun = kFastSun / 20.0;
-// When the slow sun begins: in the morning [s of the animation].
+// Start of the slow sun's motion, in the morning [s of the animation].
 constexpr double kSlowStart = 6.0;
 constexpr double kDoorStart = 2.0;
 constexpr double kLampPeriod = 4.0;  // [s]
@@ -26,8 +26,8 @@ constexpr double kLampLeast = 0.2;
 // Updates after which a field at rest has settled.
 constexpr int kSettledUpdates = 24;
 
-// Corrections are geometry, which measure_geometry() tells of; without them updates take half the
-// time.
+// Without corrections, which are part of geometry and so measured by measure_geometry(); updates
+// then take half the time.
 FieldSettings field_settings() {
   FieldSettings settings;
   settings.corrections = false;
@@ -45,7 +45,7 @@ void set_sun(Scene& scene, double time_s) {
   animate(scene, animation_named(scene, "day"), static_cast<float>(std::min(time_s, kDaySeconds)));
 }
 
-/// A scene as it is at the start of a motion.
+/// The scene at the start of a motion.
 Scene moved_scene(const Motion& motion) {
   Scene scene = bench::open_stage("atrium");
   motion.move(scene, 0.0);

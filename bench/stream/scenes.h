@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the measurements of light streams share: the atrium in motion, a field that follows it ten
-// times a second, and what a stream of it takes.
+// Common parts of the measurements of light streams: the atrium in motion, a field that follows it
+// ten times a second, and the costs of a stream of it.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace lambent::light_stream {
 /// Seconds from one state to the next.
 inline constexpr double kInterval = 0.1;
 
-/// Processor time, of all threads together, since the last lap [ms]: other programs do not count.
+/// Processor time of all threads of this process since the last lap [ms].
 class ProcessorTime {
  public:
   double lap() {
@@ -32,27 +32,27 @@ class ProcessorTime {
   std::clock_t start_ = std::clock();
 };
 
-/// How a scene is at a time.
+/// The state of a scene as a function of time.
 struct Motion {
   std::string label;
   std::function<void(Scene& scene, double time_s)> move;
 };
 
-/// The sun at 8.7 degrees a second; the sun at a twentieth of that; the door; one lamp that swells
-/// and fades in four seconds; nothing.
+/// The motions: the sun at 8.7 degrees per second; the sun at a twentieth of that; the door; one
+/// lamp that brightens and dims with a period of four seconds; nothing.
 Motion fast_sun();
 Motion slow_sun();
 Motion moving_door();
 Motion pulsing_lamp();
 Motion rest();
 
-/// The atrium with a field that has settled at time 0.
+/// The atrium with a field that was settled at time 0.
 class MovingAtrium {
  public:
-  /// Probe rays are bounded by `ray_budget` in each state; 0: not bounded.
+  /// `ray_budget` limits the probe rays per state; 0: unlimited.
   MovingAtrium(Motion motion, std::uint64_t ray_budget);
 
-  /// Goes on to the next state.
+  /// Advances to the next state.
   void advance();
   const IrradianceField& field() const { return field_; }
 
@@ -65,11 +65,11 @@ class MovingAtrium {
   int states_ = 0;
 };
 
-/// What a stream of some states took.
+/// The costs of a stream of some states.
 struct StreamCost {
   int deltas = 0, keys = 0, states = 0;
-  std::uint64_t light_bytes = 0;     ///< Of deltas, and of keys but the first.
-  std::uint64_t geometry_bytes = 0;  ///< Of geometry but the first.
+  std::uint64_t light_bytes = 0;     ///< Size of deltas, and of keys except the first.
+  std::uint64_t geometry_bytes = 0;  ///< Size of geometry messages except the first.
   std::uint64_t first_key = 0, first_geometry = 0, last_key = 0;
   double relative = 0.0, dark = 0.0;   ///< Means of LightErrors.
   double most = 0.0;                   ///< The largest of them.
@@ -79,17 +79,17 @@ struct StreamCost {
   double geometry_mbit_s() const;
 };
 
-/// Streams the atrium for some states, after the first; through H.265 where that is wanted.
+/// Streams the atrium for `states` states after the first, through H.265 if requested.
 StreamCost stream(MovingAtrium& atrium, const stream::LightEncoderSettings& settings, int states,
                   bool h265 = false);
 
 /// The rows, each a function that prints a table.
-void measure_rates();     ///< What streams take, and how exact and how fast they are.
-void measure_quality();   ///< What they take at other errors.
-void measure_regions();   ///< What a client gets of a large field, all of it or what is near.
-void measure_textures();  ///< What they take through H.265.
-void measure_geometry();  ///< Geometry, and keys.
-void measure_pictures();  ///< How clients' pictures differ from the server's.
+void measure_rates();     ///< Data rates, errors and speed of streams.
+void measure_quality();   ///< Data rates at other target errors.
+void measure_regions();   ///< Data rates of a large field, for all light and by regions.
+void measure_textures();  ///< Data rates through H.265.
+void measure_geometry();  ///< Sizes of geometry and keys.
+void measure_pictures();  ///< Differences of clients' pictures from the server's.
 /// Writes atrium.stream into the working directory: a Recording of the fast sun.
 void record_stream();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A server that a bench runs beside itself.
+// A server in a process of its own, started by a bench.
 #pragma once
 
 #include <sys/types.h>
@@ -9,19 +9,20 @@
 
 namespace lambent::stream_load {
 
-/// `lambent serve` in a process of its own, in the network of the thread that starts it.
+/// Runs `lambent serve` in a process of its own, in the network namespace of the thread that starts
+/// it.
 class ServerProcess {
  public:
-  /// Throws std::system_error where no process can be started; a program that is missing is noticed
-  /// as one that does not answer.
+  /// Throws std::system_error where no process can be started. A missing program is only noticed
+  /// since it does not answer.
   explicit ServerProcess(std::vector<std::string> command);
-  /// Asks it to end, and waits until it has.
+  /// Requests its end, and waits for it.
   ~ServerProcess();
   ServerProcess(const ServerProcess&) = delete;
   ServerProcess& operator=(const ServerProcess&) = delete;
 
   pid_t process() const { return process_; }
-  /// Asks it to end; its exit status, -1 where it was killed.
+  /// Requests its end. Returns its exit status, -1 if it was killed.
   int end();
 
  private:

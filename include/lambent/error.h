@@ -7,15 +7,15 @@
 
 namespace lambent {
 
-/// Why an operation on input or files failed. A bug of ours is an assert, never an Error.
+/// Why an operation on input or files failed. Bugs in Lambent are asserts, never Errors.
 struct Error {
   enum class Kind {
     bad_input,  ///< The caller's data or arguments are wrong; the same call will fail again.
-    failed,     ///< The environment failed us: a full disk, a missing device, lack of memory.
+    failed,     ///< The environment failed: a full disk, a missing device, lack of memory.
   };
 
   std::string file;   ///< File (or stream) concerned; empty where there is none.
-  std::string place;  ///< Where in it, e.g. "accessors[3]"; may be empty.
+  std::string place;  ///< Where in the file, e.g. "accessors[3]"; may be empty.
   std::string cause;  ///< What is wrong, in a sentence a user understands.
   Kind kind = Kind::bad_input;
 
@@ -23,7 +23,7 @@ struct Error {
   std::string message() const;
 };
 
-/// A value of type T, or the Error that kept it from existing.
+/// A value of type T, or the Error because of which there is none.
 template <class T, class E = Error>
 using Expected = tl::expected<T, E>;
 

@@ -66,8 +66,8 @@ struct FieldSettings {
   /// square root.
   int rays_per_probe = 144;
   /// Share of the old value that an update keeps once enough updates have been averaged, 0 to
-  /// 0.999. Higher is smoother. Edits that the world tells of do not wait for it, so that it need
-  /// not be low.
+  /// 0.999. Higher is smoother. Edits of the world take effect without regard to it, so that it
+  /// need not be low.
   float hysteresis = 0.99f;
 
   /// Texels of a probe's irradiance tile along an edge, without gutter, even, 2 to 16. Bytes
@@ -141,25 +141,26 @@ struct FieldQuery {
                       0.0f};  ///< Unit; irradiance is that of a surface with this normal.
   glm::vec3 to_viewer_ws{
       0.0f, 1.0f, 0.0f};  ///< Unit; towards the camera, or back along the ray that found the point.
-  /// Length of the free way to the viewer [m], >= 0: of the ray that found the point. Visibility is
-  /// judged on that way, and not behind a wall that the viewer is close to.
+  /// Length of the unoccluded segment towards the viewer [m], >= 0: that of the ray that found the
+  /// point. Visibility is tested from a point on this segment, and so never from behind a wall that
+  /// the viewer is close to.
   float viewer_distance = std::numeric_limits<float>::infinity();
 };
 
 /// What an update may cost, and for whom.
 struct UpdateRequest {
-  /// Probe rays to trace at most, without those of FieldSettings::corrections, which are in
-  /// proportion; 0: no bound (so it is, too, where FieldSettings::max_bounces is
-  /// not -1: an exact number of bounces takes all probes at once), and every probe is traced with
-  /// as many rays as the settings say, whether its light has settled or not. With a bound, probes
-  /// whose light is least settled go first, with 32 to 512 rays each as their noise asks for, and
-  /// settled ones rest.
+  /// Probe rays to trace at most, not counting those of FieldSettings::corrections, which are in
+  /// proportion. 0: no bound, and every probe is traced with as many rays as the settings say,
+  /// whether its light has settled or not; so it is, too, where FieldSettings::max_bounces is not
+  /// -1, since an exact number of bounces needs all probes at once. With a bound, probes whose
+  /// light is least settled go first, with 32 to 512 rays each depending on their noise, and
+  /// settled ones are not traced.
   std::uint64_t ray_budget = 0;
   /// Wall-clock time to take [ms]; no bound where it is not above 0. The field learns how many rays
   /// that allows; the smaller of both bounds holds.
   double time_budget_ms = 0.0;
   /// Where the camera is [m]: of probes equally unsettled, near ones go first, and cascades follow.
-  /// Numbers that are not finite are as if there were none.
+  /// Numbers that are not finite count as none.
   std::optional<glm::vec3> viewer_ws = std::nullopt;
   /// Points that the camera sees (visible_points), some hundred to a few thousand: with a bound,
   /// probes go first by how much they matter to the light at these, near or far. Costs a lookup a
@@ -185,14 +186,14 @@ struct UpdateStatistics {
   /// date with edits of the world. "schedule": choosing the probes to trace. "trace": closest hits
   /// of their rays. "shade": surfaces, and direct light with shadow rays. "blend_distances":
   /// distances into the store. "visibility": which probes see each other, with hybrid visibility.
-  /// "corrections": gathers that tell how far lookups are off. "lookups": lookup weights of
+  /// "corrections": gathers that measure the errors of lookups. "lookups": lookup weights of
   /// surfels. "solve": multi-bounce solve, of edits too.
   /// "variability": how much the light changed. "store": irradiance into the store.
   std::vector<PassTime> passes;
   /// Time of a pass [ms]; 0 where it did not run.
   double ms(std::string_view pass) const;
   std::uint64_t probe_rays = 0;  ///< Traced from probes.
-  /// Traced to learn how far lookups are off, shadow rays included.
+  /// Traced for FieldSettings::corrections, shadow rays included.
   std::uint64_t correction_rays = 0;
   std::uint64_t shadow_rays = 0;  ///< Traced from surfels to lights and emissive surfaces.
   int probes_traced = 0;          ///< With new rays.
@@ -228,7 +229,7 @@ class IrradianceField {
   /// memory runs out.
   UpdateStatistics update(const World& world, const UpdateRequest& request = {});
 
-  /// Discards all light. The next update starts from nothing.
+  /// Discards all light. The next update starts without any.
   void reset();
 
   /// Indirect irradiance [W/m^2] at each query: light that bounced, and light from the sky; not
@@ -248,9 +249,9 @@ class IrradianceField {
   /// The number of updates since the start or the last reset.
   int updates() const;
   /// Estimated standard error of the light of the probes near surfaces, over that light, root mean
-  /// square: what random rays leave of noise. As eyes see it: noise in light darker than the mean
-  /// counts less, by the square root. Infinite before the second update, which tells first.
-  /// Reads the state of every probe.
+  /// square: the noise that random rays leave. Weighted by its visibility: noise in light darker
+  /// than the mean counts less, by the square root. Infinite before the second update, after which
+  /// it is first known. Reads the state of every probe.
   double standard_error() const;
   /// Bytes of the store, for all probes.
   std::size_t store_bytes() const;

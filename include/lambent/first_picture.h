@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where to stand and which light to bring for the first picture of a scene that says neither.
+// Chooses a camera and lights for the first picture of a scene that has none.
 #pragma once
 
 #include <cstdint>
@@ -22,18 +22,18 @@ struct FirstViewSettings {
 /// A camera that shows a scene.
 struct FirstView {
   Camera camera;
-  bool inside = false;  ///< It stands in a room, and not before an object.
+  bool inside = false;  ///< The camera is inside a room, not in front of an object.
 };
 
-/// Finds a camera by what it would show: from outside, a three-quarter view of the whole object; or
-/// at eye height in open space, where the scene is a shell around most of what it holds
-/// (docs/cli.md tells the rules). Traces some 20,000 rays. The same world gives the same view.
-/// Fails on settings out of range.
+/// Finds a camera by what it would show: a three-quarter view of the whole object from outside, or,
+/// where the scene is a shell around most of its contents, a view at eye height in its open space
+/// (docs/cli.md has the rules). Traces some 20,000 rays. The same world gives the same view. Fails
+/// on settings out of range.
 Expected<FirstView> first_view(const World& world, const FirstViewSettings& settings = {});
 
-/// Light for scenes that bring none.
+/// Light for scenes that have none.
 enum class FirstLight : std::uint8_t {
-  scene,   ///< What the scene brings.
+  scene,   ///< The scene's own light.
   studio,  ///< Soft boxes as key, fill and rim, in a neutral surrounding: for objects.
   sun,     ///< Sun and sky: for open scenes.
   lamps,   ///< Lamps below the ceiling: for closed rooms.
@@ -42,14 +42,14 @@ enum class FirstLight : std::uint8_t {
 /// "scene", "studio", "sun" or "lamps".
 std::string_view name_of(FirstLight light);
 
-/// Finds the light that a camera's view asks for: the scene's, where it has lights or a sky or
-/// where its emissive surfaces light what the camera sees; else by where the camera stands.
-/// Traces some 10,000 rays.
+/// Chooses the light for a camera's view: the scene's, where it has lights or a sky or where its
+/// emissive surfaces light what the camera sees; otherwise one that suits the camera's
+/// surroundings. Traces some 10,000 rays.
 FirstLight choose_first_light(const World& world, const Camera& camera);
 
 /// Replaces the scene's lights and environment by those of `light`, set up for the camera's view;
-/// emissive surfaces stay as they are, and FirstLight::scene changes nothing. `scene` is the
-/// world's; call World::update afterwards.
+/// emissive surfaces are not changed, and FirstLight::scene changes nothing. `scene` is the world's
+/// scene; call World::update afterwards.
 void set_first_light(FirstLight light, const World& world, const Camera& camera, Scene& scene);
 
 }  // namespace lambent

@@ -13,7 +13,7 @@ namespace lambent {
 struct Image {
   int width = 0;              ///< Pixels, >= 0.
   int height = 0;             ///< Pixels, >= 0.
-  int channels = 0;           ///< Floats a pixel; 3 is linear Rec. 709 unless said otherwise.
+  int channels = 0;           ///< Floats per pixel; 3 is linear Rec. 709 unless noted.
   std::vector<float> pixels;  ///< width * height * channels floats.
 
   Image() = default;
@@ -65,15 +65,14 @@ Expected<LayeredImage> read_image(const std::string& path);
 Expected<void> write_exr(const std::string& path, const LayeredImage& image);
 
 /// Writes an 8-bit PNG of a display-ready image: channels (1, 3 or 4) already encoded, clamped to
-/// [0, 1]. Same all-or-nothing promise as write_exr.
+/// [0, 1]. As with write_exr, no partial file remains.
 Expected<void> write_png(const std::string& path, const Image& display_encoded);
 
-/// Artefacts are hard to see, in files of a fifth of a PNG's size.
+/// Default quality of JPEGs: artefacts are hard to see, and files have a fifth of a PNG's size.
 inline constexpr int kJpegQuality = 92;
 
 /// Writes a JPEG of a display-ready image as write_png does, without its alpha: `quality` is 1
-/// (smallest) to 100 (best); from 90 on colour keeps its full resolution. Same all-or-nothing
-/// promise.
+/// (smallest) to 100 (best); from 90 on colour keeps its full resolution. No partial file remains.
 Expected<void> write_jpeg(const std::string& path, const Image& display_encoded,
                           int quality = kJpegQuality);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything that is public, and which version of it this is.
+// Includes every public header, and defines the version of the library.
 #pragma once
 
-/// The version, in numbers that the preprocessor can compare. The build reads it here, too.
+/// The version, as numbers that the preprocessor can compare. The build reads them from here.
 #define LAMBENT_VERSION_MAJOR 0
 #define LAMBENT_VERSION_MINOR 1
 #define LAMBENT_VERSION_PATCH 0

@@ -7,8 +7,9 @@ namespace lambent {
 
 /// Time of one pass of a frame or of an update.
 struct PassTime {
-  std::string name;  ///< The pass's name wherever it appears: "gbuffer", "direct", "trace", ...
-  double ms = 0.0;   ///< Summed over all times that it ran.
+  /// The pass's name, the same in every listing: "gbuffer", "direct", "trace", ...
+  std::string name;
+  double ms = 0.0;  ///< Sum over all its runs [ms].
 };
 
 }  // namespace lambent

@@ -6,8 +6,8 @@
 
 namespace lambent {
 
-/// Told now and then how far a long operation is: the stage's name and the share done, 0 to 1.
-/// Called from one thread at a time. An empty function is silent.
+/// Called now and then during a long operation with the stage's name and the share done, 0 to 1;
+/// from one thread at a time. An empty function is not called.
 using ProgressFn = std::function<void(std::string_view stage, double share_done)>;
 
 }  // namespace lambent

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light as a stream: a server's irradiance field in small messages, and what clients make of them.
-// docs/stream-light.md has the format. What carries the messages is not decided here: they come in
-// order, or are lost whole.
+// Light as a stream: a server encodes its irradiance field in small messages, and clients decode
+// them. docs/stream-light.md has the format. Any transport may carry the messages, as long as each
+// arrives whole and in order, or not at all.
 #pragma once
 
 #include <array>
@@ -18,19 +18,19 @@
 namespace lambent::stream {
 
 enum class LightMessageKind : std::uint8_t {
-  geometry = 1,     ///< Places, states and distances of probes: all of them, or those that changed.
+  geometry = 1,     ///< Places, states and distances of all probes, or of those that changed.
   key = 2,          ///< The whole state of light.
   delta = 3,        ///< The change of light from one update to the next.
-  texture_key = 4,  ///< The whole state of light, as a picture that decoding can begin with.
-  texture = 5,      ///< The state of light, as pictures that follow on those before.
+  texture_key = 4,  ///< The whole state of light, as a video picture that decoding can begin with.
+  texture = 5,      ///< The state of light, as pictures predicted from earlier ones.
   regions = 6,      ///< Keys and changes of parts of a field, as one client needs them.
-  corrections = 7,  ///< A piece of the corrections of lookups: refines light that is there.
+  corrections = 7,  ///< A part of the lookup corrections (FieldSettings::corrections).
 };
 
-/// One self-contained piece of a light stream; `bytes` is opaque to whoever carries it.
+/// One self-contained piece of a light stream; `bytes` is opaque to the transport.
 struct LightMessage {
   LightMessageKind kind = LightMessageKind::delta;
-  std::uint64_t update = 0;  ///< The state after this update, from 1, is what it leads to.
+  std::uint64_t update = 0;  ///< Decoding it yields the state after this update, counted from 1.
   std::vector<std::byte> bytes;
 };
 
@@ -40,20 +40,21 @@ struct TexturePicture {
   std::array<std::vector<std::uint16_t>, 3> planes;  ///< width * height each, 0 to 1023.
 };
 
-/// A video codec that light goes through in place of our own codec: one that a platform has, in
-/// hardware perhaps. `LAMBENT_STREAM_H265` has one (stream/textures/h265.h).
+/// A video codec that encodes light in place of Lambent's own codec, such as a platform's hardware
+/// codec. `LAMBENT_STREAM_H265` provides one (stream/textures/h265.h).
 class TextureWriter {
  public:
   virtual ~TextureWriter() = default;
-  /// Encodes a picture by itself (`key`; of any size) or by those before, at once. `quantiser`: 0
-  /// to 51, 6 more halve the exactness. `shown` becomes what decoders show, to the bit.
+  /// Encodes a picture without delay: by itself (`key`; of any size) or predicted from those
+  /// before. `quantiser`: 0 to 51, 6 more double the step. `shown` becomes the decoded picture, to
+  /// the bit.
   virtual Expected<std::vector<std::byte>> write(const TexturePicture& picture, bool key,
                                                  int quantiser, TexturePicture& shown) = 0;
 };
 class TextureReader {
  public:
   virtual ~TextureReader() = default;
-  /// Decodes one picture into `picture`, whose size says what is expected. Bytes may be anything.
+  /// Decodes one picture into `picture`, whose size says what is expected. Bytes are untrusted.
   virtual Expected<void> read(std::span<const std::byte> bytes, bool key,
                               TexturePicture& picture) = 0;
 };
@@ -62,59 +63,62 @@ class TextureReader {
 /// up, and all channels.
 struct LightErrors {
   double relative = 0.0;  ///< Root mean square of E' - E, over the mean of E.
-  double dark = 0.0;  ///< Root mean square of (E' - E) / (E + 0.1 mean of E): counts dark rooms.
+  double dark = 0.0;  ///< Root mean square of (E' - E) / (E + 0.1 mean of E): includes dark rooms.
 };
 
 struct LightEncoderSettings {
-  /// Which stream this is. Clients refuse changes of another one, so that a server that starts
-  /// again should draw it anew.
+  /// Identifies the stream. Clients refuse changes of another stream, so a server that restarts
+  /// should choose a new number.
   std::uint32_t stream = 1;
-  /// Both LightErrors stay below this in each update, 0.001 to 0.2. Half of it costs about twice
+  /// Both LightErrors stay below this in each update, 0.001 to 0.2. Halving it costs about twice
   /// the bytes.
   float target_error = 0.01f;
-  /// A probe's distances are sent again where they are off by more than this at root mean square
-  /// [probe spacings], 0.001 to 1. Half of it sends the noise of their averages, too.
+  /// A probe's distances are sent again where their root mean square error exceeds this [probe
+  /// spacings], 0.001 to 1. Half of the default sends the noise of their averages, too.
   float distance_threshold = 0.1f;
 };
 
-/// The side of the server: turns the states of one field into messages for any number of clients.
+/// The server's side: encodes the states of one field into messages for any number of clients.
 class LightEncoder {
  public:
   /// Fails on settings out of range.
   static Expected<LightEncoder> create(const LightEncoderSettings& settings = {});
-  /// The same, but light goes through a video codec: `encode` then gives textures in place of keys
-  /// and deltas, and `join` geometry alone, as there is a key for all in the next update only
-  /// (`refresh`). Where errors stay above the target after some pictures, they are above it.
+  /// An encoder whose light goes through a video codec: `encode` then returns textures in place of
+  /// keys and deltas, and `join` returns geometry alone; a client that joins can decode light from
+  /// the next key on, which `refresh` requests. If errors are still above the target after some
+  /// pictures, the update is sent with these errors.
   static Expected<LightEncoder> create(const LightEncoderSettings& settings,
                                        std::unique_ptr<TextureWriter> writer);
-  /// The next update is a key.
+  /// Makes the next update a key.
   void refresh();
   ~LightEncoder();
   LightEncoder(LightEncoder&&) noexcept;
   LightEncoder& operator=(LightEncoder&&) noexcept;
 
-  /// What all clients need after an update of the field, in the order in which they must get it:
-  /// geometry where it changed, and a delta. The first time, where the field has other volumes than
-  /// before, and where light has become so much darker or brighter that changes no longer fit, all
-  /// of the geometry or a key instead. Fails on light that is not finite. The same calls give the
-  /// same bytes.
+  /// The messages that all clients need after an update of the field, in the order in which they
+  /// must receive them: geometry where it changed, and a delta. The first time, where the field has
+  /// other volumes than before, and where light has become so much darker or brighter that changes
+  /// no longer fit, all of the geometry or a key instead. Fails on light that is not finite. The
+  /// same calls give the same bytes.
   Expected<std::vector<LightMessage>> encode(const IrradianceField& field);
 
-  /// What one client needs that comes late or has lost something: geometry, and a key of the state
-  /// after the last update, so that the deltas that follow apply. `known_geometry` is what the
-  /// client's LightDecoder::geometry says; geometry is left out where the client has it. Fails
-  /// before the first encode. May be called by several threads at once, but not beside encode.
+  /// The messages for one client that joins late or has lost a message: geometry, and a key of the
+  /// state after the last update, to which the following deltas apply. `known_geometry` is the
+  /// client's LightDecoder::geometry; geometry that the client has is left out. Fails before the
+  /// first encode. May be called by several threads at once, but not concurrently with encode.
   Expected<std::vector<LightMessage>> join(std::uint64_t known_geometry = 0) const;
 
-  /// What can come later than all else: corrections of lookups, in pieces of some 70 kB that a
-  /// client takes in any order, and uses once it has all of them. Clients need these after the
-  /// geometry of `join` and wherever `corrections_number` has changed; none where the field has no
-  /// corrections. What `encode` gives may come before and between them. To be called as `join` is.
+  /// The lookup corrections, which may be sent after everything else, in pieces of some 70 kB. A
+  /// client accepts these in any order and uses them once it has all. Clients need them after the
+  /// geometry of `join` and whenever `corrections_number` has changed; none where the field has no
+  /// corrections. Messages of `encode` may be sent before and between them. Threads may call it as
+  /// they may call `join`.
   std::vector<LightMessage> corrections() const;
-  /// The number of the geometry after the last update, as LightDecoder::geometry; 0: none.
+  /// The number of the geometry after the last update, comparable to LightDecoder::geometry; 0:
+  /// none.
   std::uint64_t geometry() const;
-  /// Which corrections these are: the number of the geometry that they came to be with. 0 before
-  /// the first encode.
+  /// The version of the corrections: the number of the geometry with which they first appeared. 0
+  /// before the first encode.
   std::uint64_t corrections_number() const;
 
   /// Updates encoded so far.
@@ -128,9 +132,9 @@ class LightEncoder {
   std::unique_ptr<State> state_;
 };
 
-/// The side of the client: keeps the state that messages lead to. Needs neither a scene nor a ray
-/// tracer. Messages may be anything: what is broken, late, of another stream or out of order is an
-/// Error and leaves the state as it was.
+/// The client's side: decodes messages into the state of a field. Needs neither a scene nor a ray
+/// tracer. Messages are untrusted: one that is broken, late, of another stream or out of order is
+/// an Error and leaves the state as it was.
 class LightDecoder {
  public:
   /// A field whose state would take more memory than this is refused.
@@ -139,28 +143,28 @@ class LightDecoder {
   LightDecoder(LightDecoder&&) noexcept;
   LightDecoder& operator=(LightDecoder&&) noexcept;
 
-  /// What decodes textures; without, they are refused.
+  /// Sets the decoder of textures; without one, textures are refused.
   void read_textures(std::unique_ptr<TextureReader> reader);
 
   /// Takes one message.
   Expected<void> receive(std::span<const std::byte> message);
 
-  /// Whether there is no light yet, or a change was lost: only what LightEncoder::join returns
-  /// helps. The last state remains readable.
+  /// Whether there is no light yet, or a change was lost: decoding then continues only from the
+  /// messages of LightEncoder::join. The last state remains readable.
   bool needs_key() const;
   /// The update whose light this is, from 1; 0: there is none yet.
   std::uint64_t update() const;
   /// The number of the last geometry received, for LightEncoder::join; 0: none.
   std::uint64_t geometry() const;
-  /// As LightEncoder::join, so that whoever hands the stream's messages on can take in who comes
-  /// late: the same bytes, as both sides hold the same state. Fails where `needs_key` says so, and
-  /// where light comes as textures or by regions.
+  /// The messages that LightEncoder::join would return, so that a relay of the stream can serve
+  /// clients that join late. They have the same bytes, since both sides have the same state. Fails
+  /// if `needs_key`, and where light comes as textures or by regions.
   Expected<std::vector<LightMessage>> join(std::uint64_t known_geometry = 0) const;
-  /// As LightEncoder::corrections, of the pieces that are here.
+  /// The messages that LightEncoder::corrections would return, of the pieces received so far.
   std::vector<LightMessage> corrections() const;
-  /// As LightEncoder::corrections_number.
+  /// See LightEncoder::corrections_number.
   std::uint64_t corrections_number() const;
-  /// Whether all pieces of these are here; true where there are none.
+  /// Whether all pieces of the corrections were received; true where there are none.
   bool has_corrections() const;
 
   // All below are empty or 0 before the first key.
@@ -186,7 +190,7 @@ class LightDecoder {
   std::unique_ptr<State> state_;
 };
 
-/// A field whose light comes from a stream: what a client renders its own world with.
+/// A field whose light comes from a stream, with which a client renders its own copy of the world.
 class StreamedField {
  public:
   explicit StreamedField(std::size_t most_bytes = std::size_t{1} << 30u);
@@ -194,16 +198,16 @@ class StreamedField {
   StreamedField(StreamedField&&) noexcept;
   StreamedField& operator=(StreamedField&&) noexcept;
 
-  /// LightDecoder::read_textures
+  /// See LightDecoder::read_textures.
   void read_textures(std::unique_ptr<TextureReader> reader);
 
-  /// Takes one message as LightDecoder does, and brings the field up to date. Not to be called
-  /// while the field is read.
+  /// Takes one message as LightDecoder::receive does, and brings the field up to date. Not to be
+  /// called while the field is read.
   Expected<void> receive(std::span<const std::byte> message);
   const LightDecoder& decoder() const;
 
-  /// The field, for Renderer and lookups, on the processor; null before the first key. Stays where
-  /// it is afterwards. Not to be updated: its light is the server's.
+  /// The field, for Renderer and lookups, on the processor; null before the first key. The pointer
+  /// stays valid afterwards. The field must not be updated, since its light is the server's.
   const IrradianceField* field() const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vulkan devices that fields and frames can be computed on. Needs no Vulkan headers; devices
-// that engines lend are in vulkan_device.h.
+// Vulkan devices on which fields and frames can be computed. Needs no Vulkan headers;
+// vulkan_device.h has devices that an engine lends.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@
 
 namespace lambent::vulkan {
 
-/// A Vulkan device that passes run on. Whoever holds the pointer keeps it alive; worlds do.
+/// A Vulkan device on which passes run. Shared pointers keep it alive; each World holds one.
 class Device;
 
-/// What is known of a device before it is opened.
+/// The description of a device, available before it is opened.
 struct DeviceDescription {
-  std::string name;             ///< As the driver tells it.
+  std::string name;             ///< As the driver reports it.
   std::string driver;           ///< Name and version of the driver.
   std::uint32_t api_major = 0;  ///< Of Vulkan.
   std::uint32_t api_minor = 0;
@@ -33,15 +33,15 @@ Expected<std::vector<DeviceDescription>> devices();
 struct DeviceRequest {
   /// Index among devices(); -1: the first that can be opened, hardware before software.
   int index = -1;
-  /// Turns on the validation layer, which must be installed; what it finds is kept
-  /// (validation_messages). Costs speed.
+  /// Turns on the validation layer, which must be installed; validation_messages returns its
+  /// findings. Slow.
   bool validation = false;
 };
 
-/// Opens a device. Fails, naming for each device what it lacks, where none can be.
+/// Opens a device. Fails where none can be opened, naming for each device what it lacks.
 Expected<std::shared_ptr<Device>> open_device(const DeviceRequest& request = {});
 
-/// What is known of an open device.
+/// The description of an open device.
 const DeviceDescription& description(const Device& device);
 
 /// Warnings and errors of the validation layer so far; empty where it is not on.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A field that an engine records into command buffers of its own, on its own Vulkan device, with
-// its own rays and its own shading: docs/integration.md. Needs Vulkan's headers; where there are
-// none it declares nothing.
+// A field whose passes an engine records into its own command buffers, on its own Vulkan device,
+// with its own rays and shading; see docs/integration.md. Needs Vulkan's headers; without them,
+// this file declares nothing.
 #pragma once
 
 #if __has_include(<vulkan/vulkan_core.h>)
@@ -28,59 +28,60 @@ struct RecordedFieldSettings {
   /// Updates whose command buffers may be unfinished while the next one is planned and recorded, 1
   /// to 16. Each costs some ten kilobytes.
   int frames_in_flight = 2;
-  /// Probes that an update traces, in turn; 0: all, but of the cascade of level L one in 2^L.
-  /// Costs of an update are in proportion, its memory for rays, hits and results too (128 bytes a
-  /// ray).
+  /// Number of probes that an update traces, in turn; 0: all, but of the cascade of level L only
+  /// one in 2^L. An update's cost is in proportion, and so is its memory for rays, hits and results
+  /// (128 bytes per ray).
   int probes_per_update = 0;
-  /// Rays that an update traces at most, of the probes whose light is least settled: the device
-  /// decides which, once the first rounds and placing are over, and those that are settled rest. 0:
-  /// as above. At least eight probes' rays (FieldSettings::rays_per_probe each); probes are served
-  /// in eights. Costs and memory as above.
+  /// Maximum number of rays that an update traces. Once the first rounds and placing are over, the
+  /// device chooses the probes whose light is least settled, and settled ones are not traced. 0: no
+  /// such choice, only `probes_per_update` counts. Otherwise at least the rays of eight probes
+  /// (FieldSettings::rays_per_probe each), since probes are traced in groups of eight. Cost and
+  /// memory as for `probes_per_update`.
   int rays_per_update = 0;
-  /// Times that a probe is traced, from the start or from UpdatePlan::place_again on, after which
-  /// it may move to where it stands better; 2 to 64, or 0: none moves. Most stand well after
-  /// three, those in corners after five. One that moved averages anew.
+  /// Relocation: after each of the first `placing_updates` times that it is traced, counted from
+  /// the start or from UpdatePlan::place_again, a probe may move to a better place; 2 to 64, or 0:
+  /// none moves. Most are well placed after three, those in corners after five. The averages of a
+  /// probe that moved start anew.
   int placing_updates = 8;
-  /// Mask of the probes' rays: record_trace meets instances whose mask shares a bit.
+  /// Mask of the probes' rays: in record_trace they hit instances whose mask shares a bit.
   std::uint8_t ray_mask = 0xFF;
 };
 
 /// What an update does besides tracing the next batch of probes.
 struct UpdatePlan {
-  /// Factor to the weight of all that probes have averaged so far, 0 to 1. 1: what changed is told
-  /// by `changes`, or nothing did. 0: the place is another one.
+  /// Factor on the weight of the probes' history, 0 to 1. 1: nothing changed, or `changes` lists
+  /// it. 0: the whole scene was replaced.
   float history = 1.0f;
-  /// Lets relocation of all probes begin again at once.
+  /// Restarts the relocation of all probes.
   bool place_again = false;
-  /// What differs from the scene in which the last update's rays were traced; empty: nothing. All
-  /// rays are traced again whatever differs, so that it is only read whether each of moved,
-  /// rebuilt, lights, materials, emission and environment tells of something. Must stay valid
-  /// during the call.
+  /// The differences from the scene in which the last update's rays were traced; empty: none. All
+  /// rays are traced again whatever differs. Therefore only matters whether each of moved, rebuilt,
+  /// lights, materials, emission and environment reports a change. Must stay valid during the call.
   ///
   /// Where all probes are traced at once and bounces are not counted, the change is followed
   /// exactly: the update traces every probe's last rays again (PlannedUpdate::retraces), solves for
-  /// the light of all bounces, and changes just those probes whose light differs visibly. The more
-  /// the distribution of their light over directions differs, the less their history counts; the
-  /// others keep all of it, and their bits. Otherwise all averages begin again, as in a new field.
-  /// Eight updates after static geometry was `rebuilt` last, relocation begins again.
+  /// the light of all bounces, and changes only those probes whose light differs visibly. The more
+  /// the distribution of their light over directions differs, the less their history counts; all
+  /// other probes remain unchanged, to the bit. Otherwise all averages start anew, as in a new
+  /// field. Eight updates after static geometry was last `rebuilt`, relocation restarts.
   ///
-  /// An update that traces rays again adds no new ones to the averages: a field that is told of
-  /// changes in every update follows each, but does not become less noisy.
+  /// An update that traces rays again adds no new ones to the averages: a field with changes in
+  /// every update follows each of them, but does not become less noisy.
   std::span<const WorldChanges> changes = {};
   /// Where the camera is [m]: cascades (FieldSettings::cascades) follow it. None, or numbers that
-  /// are not finite: they stay.
+  /// are not finite: they do not move.
   std::optional<glm::vec3> viewer_ws = std::nullopt;
 };
 
 /// The work of an update.
 struct PlannedUpdate {
-  std::uint32_t probes = 0;          ///< Number of probes; an upper bound where the device decides.
+  std::uint32_t probes = 0;          ///< Number of probes; an upper bound if `on_device`.
   std::uint32_t rays_per_probe = 0;  ///< Rays per probe, which are consecutive.
-  std::uint32_t rays = 0;     ///< Number of all rays; an upper bound where the device decides.
-  bool moves_probes = false;  ///< record_maintain may move some.
-  bool on_device = false;     ///< The device decides which probes; see ray_launch().
-  /// Probes trace their last rays again, to follow UpdatePlan::changes. What an engine shades with
-  /// random numbers must come out as before where nothing changed: seed them by the ray.
+  std::uint32_t rays = 0;            ///< Number of all rays; an upper bound if `on_device`.
+  bool moves_probes = false;         ///< record_maintain may move some.
+  bool on_device = false;            ///< The device chooses the probes; see ray_launch().
+  /// Probes trace their last rays again, to follow UpdatePlan::changes. Shading with random numbers
+  /// must give the same results as before where nothing changed: seed them by the index of the ray.
   bool retraces = false;
 };
 
@@ -90,33 +91,34 @@ struct LookupBuffers {
   BufferRange offsets;     ///< One word per probe.
   BufferRange irradiance;  ///< Irradiance tiles, one after the other.
   BufferRange distance;    ///< Distance tiles, one after the other.
-  /// A FieldRecord (field/lookup/field_record.h) that names the four, and the corrections of
-  /// lookups that came with a file: what lambent/shaders/field_lookup.glsl takes.
-  /// RecordedField::start_from changes what it holds.
+  /// A FieldRecord (field/lookup/field_record.h) with the addresses of these four and of the lookup
+  /// corrections from a file, for lambent/shaders/field_lookup.glsl. RecordedField::start_from
+  /// changes its contents.
   BufferRange record;
 };
 
-/// A field in the memory of an engine's device. What its passes take is made with it: recording
-/// makes nothing, waits for nothing and reads nothing back. An update is, once a frame or less:
+/// A field in the memory of an engine's device. All resources of its passes are created with it:
+/// recording creates nothing, waits for nothing and reads nothing back. An update consists of these
+/// calls, once per frame or less often:
 ///
-///   plan             which probes, which rays; on the host
-///   record_rays      cascades move with the viewer; the probes' rays, into rays()
-///   record_trace     what they meet in the engine's acceleration structure, into hits(); or the
-///                    engine's own way to find out
-///   (the engine)     what that brings back, into results(), by a shader of the engine's
-///   record_update    from that to the light that lookups find
-///   record_maintain  what probes are for and where they stand from their next rays on; may be left
-///                    out
+///   plan             chooses probes and rays, on the host
+///   record_rays      scrolls cascades with the viewer; writes the probes' rays to rays()
+///   record_trace     traces the rays in the engine's acceleration structure and writes hits(); an
+///                    engine may trace them itself instead
+///   (the engine)     shades the hits with a shader of its own and writes results()
+///   record_update    turns the results into the light that lookups read
+///   record_maintain  classifies and relocates probes, with effect from their next rays on; may be
+///                    left out
 ///
-/// in this order, into one command buffer or several that are submitted in it, to one queue family:
-/// primary ones, outside render passes. Pipelines, descriptor sets and push constants that were
-/// bound before a call are not bound any more after it.
+/// Record them in this order, into one primary command buffer or several that are submitted in
+/// order, to one queue family, outside render passes. Each call unbinds pipelines, descriptor sets
+/// and push constants that were bound before.
 ///
-/// Barriers. Each record_* ends with a memory barrier from all commands to all commands, and
-/// begins with one: all that it writes is visible to what the engine records after it, and all that
-/// was submitted before it to the same queue is visible to it, as is what was waited for with a
-/// semaphore. So on one queue the engine owes no barrier but between its own commands. What each
-/// one touches, for engines that use several queues or track resources themselves:
+/// Barriers. Each record_* begins and ends with a memory barrier from all commands to all commands:
+/// all that it writes is visible to commands that the engine records after it, and it sees all that
+/// was submitted before it to the same queue or waited for with a semaphore. So on one queue, the
+/// engine needs barriers only between its own commands. For engines that use several queues or
+/// track resources themselves, these are the resources and stages of each call:
 ///
 ///   record_rays      reads the lookup buffers, writes rays()      compute shaders, transfer,
 ///                    and ray_launch(); with cascades it writes    indirect commands
@@ -127,21 +129,20 @@ struct LookupBuffers {
 ///                    writes the lookup buffers                    indirect commands
 ///   record_maintain  reads rays() and results(), writes states()  compute shaders
 ///
-/// Lookups may run at any time but during record_update, and with cascades during record_rays:
-/// between two updates' they find whole ones. A cascade that has moved gives the probes of the slab
-/// that it left behind places in front. Until record_update has given these light, they have no
-/// weight, and coarser volumes answer in their stead.
+/// Lookups may run at any time except during record_update and, with cascades, record_rays. A
+/// cascade that moves places the probes that it leaves behind in front. These have no weight until
+/// record_update has given them light; coarser volumes answer in their place.
 ///
-/// Frames in flight. Updates run on the device one after the other. While so many updates as
-/// RecordedFieldSettings::frames_in_flight are unfinished, plan must not be called: an engine waits
-/// for the fence of the frame whose command buffer it is about to fill again, as it does anyway.
+/// Frames in flight. Updates run on the device one after the other. plan must not be called while
+/// RecordedFieldSettings::frames_in_flight updates are unfinished. Engines that wait for the fence
+/// of the frame whose command buffer they are about to reuse comply.
 ///
-/// Not thread-safe. The device must not use the field any more when it is destroyed.
+/// Not thread-safe. The field must not be destroyed while the device uses it.
 class RecordedField {
  public:
-  /// A field that holds no light yet, for a place of these bounds [m]. Submits to the device's
-  /// queue, and waits. Fails on settings out of range, and on those that recorded fields do not
-  /// follow: visibility by rays, counted bounces where not all probes are traced at once.
+  /// A field without light, for a scene of these bounds [m]. Submits to the device's queue, and
+  /// waits. Fails on settings out of range, and on those that recorded fields do not support:
+  /// visibility by rays, and a limit of bounces where not all probes are traced at once.
   /// Throws std::runtime_error where the device's memory runs out.
   static Expected<RecordedField> make(std::shared_ptr<Device> device, const FieldSettings& settings,
                                       const Bounds& bounds,
@@ -150,71 +151,74 @@ class RecordedField {
   RecordedField(RecordedField&&) noexcept;
   RecordedField& operator=(RecordedField&&) noexcept;
 
-  /// Starts a field that was not updated yet from a field file (save_field, `lambent bake`): from
-  /// its light, its distances, the places and states of its probes, and how many updates these
-  /// average. Lookups find that light once the call returns; updates add to it, with the random
-  /// numbers that come next. Probes stay where they stand until UpdatePlan::place_again. Submits to
-  /// the device's queue, and waits; memory that the copy takes is given back before it returns.
+  /// Initialises a field that was not updated yet from a field file (save_field, `lambent bake`):
+  /// its light, its distances, the places and states of its probes, and the number of updates that
+  /// these average. Lookups find that light once the call returns; updates continue its averages
+  /// and its sequence of random numbers. Probes do not move until UpdatePlan::place_again. Submits
+  /// to the device's queue, and waits; temporary memory is freed before it returns.
   ///
-  /// The file's corrections of lookups (FieldSettings::corrections) are read from then on, by
-  /// surfels and by lambent/shaders/field_lookup.glsl; not by lookup.hlsl and lookup.wgsl. They
-  /// stay as the bake left them: gathers would have engines shade the hits of further rays, so that
-  /// recorded fields learn none, and edits do not change them.
+  /// The file's lookup corrections (FieldSettings::corrections) are then applied by surfels and by
+  /// lambent/shaders/field_lookup.glsl, but not by lookup.hlsl and lookup.wgsl. They are not
+  /// updated, not even by edits: recorded fields learn no corrections, since engines would have to
+  /// shade the hits of further rays.
   ///
   /// Fails, naming the file, where it cannot be read, is broken, or does not fit, and leaves the
   /// field as it was. Formats and texels must be those of the field's settings, and volumes those
   /// that it was made with, to a thousandth of a cell; lookups then use the places of the file.
-  /// Cascades may stand elsewhere, and scroll from there to the viewer.
+  /// Cascades may be elsewhere, and scroll from there to the viewer.
   ///
-  /// Whether the file is of the scene that the engine traces is not checked: Lambent does not know
-  /// that scene. Where the geometry is another, the file is of no use. Where lights, materials,
+  /// It is not checked whether the file belongs to the scene that the engine traces, which Lambent
+  /// does not have. With other geometry the file is of no use. Where lights, materials,
   /// FieldSettings::max_bounces or max_albedo are not those of the bake, give the first update a
-  /// history of 0: the light is then a start, but no part of averages. Edits (UpdatePlan::changes)
-  /// let all averages begin anew until every probe has been traced once. Throws std::runtime_error
-  /// where the device's memory runs out.
+  /// history of 0: the solve then starts from the light, but averages do not include it. Edits
+  /// (UpdatePlan::changes) restart all averages until every probe has been traced once. Throws
+  /// std::runtime_error where the device's memory runs out.
   Expected<void> start_from(const std::string& path);
 
   /// Begins an update. Fails where a number of `update` is out of range; nothing has begun then.
   Expected<PlannedUpdate> plan(const UpdatePlan& update = {});
 
-  /// RayRecord (raytracing/ray_records.h), one a ray. A mask of 0: need not be traced, as those of
-  /// PlannedUpdate::rays that are more than the device decided on.
+  /// Writes one RayRecord (raytracing/ray_records.h) per ray. Rays with a mask of 0 need not be
+  /// traced; where the device chooses the probes, all rays of PlannedUpdate::rays in excess of its
+  /// choice have it.
   void record_rays(VkCommandBuffer commands) const;
-  /// HitRecord, one a ray, by a ray tracing pipeline of Lambent's. `instance` is the custom index.
-  /// Knows no materials: rays stop where triangles are see-through.
+  /// Writes one HitRecord per ray, by a ray tracing pipeline of Lambent's. `instance` is the custom
+  /// index. All triangles count as opaque, since materials are not available here.
   void record_trace(VkCommandBuffer commands, VkAccelerationStructureKHR structure) const;
   void record_update(VkCommandBuffer commands);
   void record_maintain(VkCommandBuffer commands) const;
 
-  /// Of the update that was planned last, in the same buffers always.
+  /// Rays and hits of the update that was planned last. The buffers are always the same.
   BufferRange rays() const;
   BufferRange hits() const;
-  /// RayResult (lambent/shaders/ray_results.h), one a ray: what the engine writes.
+  /// One RayResult (lambent/shaders/ray_results.h) per ray, which the engine writes.
   BufferRange results() const;
 
-  /// Where PlannedUpdate::on_device: a VkTraceRaysIndirectCommandKHR, as wide as a probe has rays
-  /// and as high as the device decided on probes; ray (x, y) is y * width + x. None else.
+  /// With PlannedUpdate::on_device, a VkTraceRaysIndirectCommandKHR whose width is the number of
+  /// rays per probe and whose height is the number of probes that the device chose; ray (x, y) has
+  /// the index y * width + x. Otherwise none.
   BufferRange ray_launch() const;
 
-  /// What each pass took on the device in the last update that had finished when `plan` was called
-  /// [ms], in their order, by the names of UpdateStatistics::passes; none where the device has no
-  /// timestamps, and of parts that were not recorded.
+  /// Time of each pass on the device [ms] in the last update that had finished when `plan` was
+  /// called, in order, with the names of UpdateStatistics::passes. Empty where the device has no
+  /// timestamps; passes that were not recorded are left out.
   const std::vector<PassTime>& pass_times() const;
-  /// Memory that the field's buffers take on the device and in what the host shares with it
-  /// [bytes], the same for its whole life; pipelines are not counted.
+  /// Memory of the field's buffers on the device and in memory that the host shares with it
+  /// [bytes], constant for its lifetime; pipelines are not included.
   std::size_t bytes() const;
   LookupBuffers lookup_buffers() const;
-  /// One word a probe: 0, or 1 where it stands in solid matter. Such probes light nothing, and are
-  /// traced but every eighth turn; where the device decides, once in 128 updates or a few more.
+  /// One word per probe: 1 where it is in solid matter, else 0. Such probes are not looked up, and
+  /// are traced only every eighth turn, or, where the device chooses the probes, about once in 128
+  /// updates.
   BufferRange states() const;
-  /// Grids, offsets, irradiance and distance as storage buffers at bindings 0 to 3, for all stages:
-  /// what lookup.hlsl and lookup.wgsl read.
+  /// Grids, offsets, irradiance and distance as storage buffers at bindings 0 to 3, for all stages,
+  /// as lookup.hlsl and lookup.wgsl read them.
   VkDescriptorSetLayout lookup_set_layout() const;
   VkDescriptorSet lookup_set() const;
 
   const FieldSettings& settings() const;
   int probes() const;
-  /// Updates planned so far, and those of the file that it started from.
+  /// Number of updates planned so far, plus those of the file that it started from.
   std::uint32_t updates() const;
 
  private:

@@ -16,37 +16,37 @@ namespace vulkan {
 class Device;
 }
 
-/// What World::update found to differ from the update before. That an instance has come to stand at
-/// another place in the scene's list is no change.
+/// The changes that World::update found since the update before. Another order of the scene's list
+/// of instances is not a change.
 struct WorldChanges {
   /// A light before and after; none before: it was added, none after: it was removed.
   struct LightChange {
     std::optional<Light> before, after;
   };
   std::uint64_t revision = 0;  ///< Counts updates that found something; 0: the world as built.
-  /// World-space boxes where geometry that moved, deformed, appeared, vanished, or came to let
-  /// other rays through stood before and stands now, one each [m].
+  /// World-space boxes [m], one per instance that moved, deformed, appeared, vanished, or changed
+  /// which rays pass through it; each contains the instance before and after.
   std::vector<Bounds> moved;
-  /// The same of those that are not `dynamic`: what has been built anew rather than set in motion.
+  /// The boxes of those instances that are not Instance::dynamic.
   std::vector<Bounds> rebuilt;
   std::vector<LightChange> lights;
-  std::vector<int> materials;  ///< Indices of those that differ, in themselves or in a texture.
-  bool emission = false;       ///< What emissive surfaces send, or where they are, differs.
-  bool environment = false;    ///< The sky differs.
+  std::vector<int> materials;  ///< Indices of those that changed, themselves or by a texture.
+  bool emission = false;       ///< The light or the places of emissive surfaces changed.
+  bool environment = false;    ///< The sky changed.
   double refit_ms = 0.0;       ///< Wall-clock time the update took.
 
-  /// Whether anything differs.
+  /// Whether anything changed.
   bool any() const {
     return !moved.empty() || !lights.empty() || !materials.empty() || emission || environment;
   }
 };
 
-/// A scene made ready for light: its acceleration structure and its tables of light sources.
+/// A scene prepared for rendering: its acceleration structure and its tables of light sources.
 /// Refers to the scene, which must outlive it. The scene may be edited between frames: call update
 /// before the world is used again.
 class World {
  public:
-  /// Updates that changes_since reaches back.
+  /// Number of updates that changes_since can return.
   static constexpr std::size_t kLogLength = 256;
 
   /// Builds everything. The scene must be one that validate accepts. On a device (lambent/vulkan.h)
@@ -57,24 +57,24 @@ class World {
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  /// Finds what was edited in the scene since the last update, and follows, refitting or rebuilding
-  /// only what that touches. Any part of the scene may be edited: instances, lights, materials and
-  /// the environment's numbers are compared; of meshes, textures and the environment's map the
-  /// `revision` is (and their size). Meshes, materials and textures may be added at the end.
-  /// Returns what differs; where nothing does, nothing changes and the revision is the last one.
+  /// Finds the edits of the scene since the last update and follows them, refitting or rebuilding
+  /// only the parts that they affect. Any part of the scene may be edited: instances, lights,
+  /// materials and the environment's numbers are compared; for meshes, textures and the
+  /// environment's map, `revision` and size are. Meshes, materials and textures may be added at the
+  /// end. Returns the changes; where there are none, the revision is the last one.
   /// Fails on edits that validate would refuse, naming the culprit; the world then stays as it
   /// was, and must not be used before the scene is mended and update has been called again.
   /// Not to be called while the world is read. Throws std::runtime_error where memory runs out.
   Expected<WorldChanges> update();
 
-  /// Updates that found something so far.
+  /// Number of updates so far that found changes.
   std::uint64_t revision() const;
   /// The changes after `revision`, oldest first; none where the log no longer reaches back so far
   /// (kLogLength), or there was no such revision.
   std::optional<std::vector<WorldChanges>> changes_since(std::uint64_t revision) const;
 
-  /// A box around an instance as it was at the last update, world space [m]: that of its mesh,
-  /// carried along, which is loose where it is turned.
+  /// A box around an instance as of the last update, world space [m]: the transformed box of its
+  /// mesh, which is loose where the instance is rotated.
   Bounds instance_bounds(int instance) const;
 
   const Scene& scene() const { return *scene_; }
@@ -98,8 +98,8 @@ class World {
 /// fitted to it has its outermost probes in front of the walls and not inside. A side counts as
 /// walled where most rays from outside pass through no more than a tenth of the scene before they
 /// reach open space. Where surfaces of an object, rather than a room, face out of another side,
-/// some air is added, so that probes stand in front of them, too; all else stays as it is. A viewer
-/// outside of the world's bounds adds air in front of the walls that face it.
+/// some air is added, so that there are probes in front of them, too; other sides are not changed.
+/// A viewer outside the world's bounds adds air in front of the walls that face it.
 Bounds open_bounds(const World& world, std::optional<glm::vec3> viewer_ws = std::nullopt);
 
 }  // namespace lambent

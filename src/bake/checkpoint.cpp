@@ -25,9 +25,9 @@ constexpr std::uint32_t kCheckpointVersion = 1;
 constexpr std::size_t kHeaderBytes = 8 + 6 * sizeof(std::uint32_t);
 constexpr std::size_t kChecksumPlace = 12;
 constexpr std::size_t kCheckedFrom = 16;
-// The largest file that is read: of a field of the most probes, in the largest formats.
+// Largest file that is read: a field with the most probes, in the largest formats.
 constexpr std::uint64_t kMaxCheckpointBytes = std::uint64_t{24} << 30;
-// Light beyond this is no field's [W/m^2].
+// Largest valid light [W/m^2].
 constexpr float kMaxLight = 1e18f;
 
 using State = FieldAccess::State;
@@ -36,9 +36,9 @@ void add_vec3(const vec3& v, ByteWriter& out) {
   for (int axis = 0; axis < 3; ++axis) out.f32(v[axis]);
 }
 
-/// Adds all settings but the additional volumes, whose grids are added.
+/// Adds all settings except the additional volumes, whose grids are added elsewhere.
 void add_settings(const FieldSettings& settings, ByteWriter& out) {
-  // A setting that is new fails to compile here
+  // A new setting causes a compile error here
   const auto& [probe_count, probe_spacing, probe_budget, volume, cascades, volumes, rays_per_probe,
                hysteresis, irradiance_texels, distance_texels, irradiance_format, distance_format,
                relocation, corrections, visibility, solve_tolerance, max_solve_iterations,
@@ -67,8 +67,8 @@ void add_grid(const ProbeGrid& grid, ByteWriter& out) {
   for (int axis = 0; axis < 3; ++axis) add_vec3(grid.axes[axis], out);
 }
 
-/// A checksum of all that the bits of a bake depend on. Grids are those of a field without updates:
-/// they stand for the scene's bounds and for volumes that the settings add.
+/// A checksum of everything on which the bits of a bake depend. Grids are those of a field without
+/// updates: they represent the scene's bounds and the additional volumes of the settings.
 std::uint32_t identity_of(const World& world, const State& state,
                           const std::optional<vec3>& viewer_ws) {
   ByteWriter out;
@@ -81,7 +81,8 @@ std::uint32_t identity_of(const World& world, const State& state,
   add_settings(state.settings, out);
   for (int volume = 0; volume < state.data.store.volumes(); ++volume) {
     ProbeGrid grid = state.data.store.grid(volume);
-    // Where volumes that follow the viewer stand is told by the viewer
+    // The place of volumes that follow the viewer depends only on the viewer, which is added
+    // separately
     if (state.volumes.roles[volume].follows_viewer) grid.origin_ws = vec3(0.0f);
     add_grid(grid, out);
   }
@@ -90,7 +91,7 @@ std::uint32_t identity_of(const World& world, const State& state,
   return crc32_of(out.bytes());
 }
 
-/// What stands before the field file.
+/// Encodes the header before the field file.
 std::vector<std::byte> encode_front(const State& state, std::uint32_t identity) {
   ByteWriter out;
   out.raw(std::as_bytes(std::span(kMagic)));
@@ -151,8 +152,8 @@ Expected<Checkpoint> decode(const std::string& path, std::span<const std::byte> 
   return checkpoint;
 }
 
-/// Whether a volume has as many probes as the field's, and tiles like theirs. Where it stands is
-/// part of the identity.
+/// Whether a volume has as many probes and texels as the field's. Its place is part of the
+/// identity.
 bool is_of_grid(const FieldVolume& volume, const ProbeGrid& grid, const FieldSettings& settings) {
   return volume.grid.count == grid.count &&
          volume.irradiance_texels == settings.irradiance_texels &&
@@ -161,7 +162,7 @@ bool is_of_grid(const FieldVolume& volume, const ProbeGrid& grid, const FieldSet
          volume.distance_format == settings.distance_format;
 }
 
-/// Puts the probes of a volume, which files hold in the order of its grid, where they belong.
+/// Restores the probes of a volume, which files store in the order of its grid.
 void restore_volume(const FieldVolume& volume, const ProbeGrid& grid, std::uint64_t revision,
                     State& state) {
   const std::size_t irradiance = volume.irradiance.size() / volume.records.size();
@@ -224,7 +225,7 @@ void resume_from(const Checkpoint& checkpoint, const World& world,
                  const std::optional<glm::vec3>& viewer_ws, IrradianceField& field) {
   State& state = FieldAccess::state_of(field);
   assert(state.updates == 0);
-  // Do what the first update does before it traces
+  // Do the same as the first update before it traces
   state.find_solid_sides(world);
   UpdateStatistics statistics;
   if (viewer_ws) state.scroll_volumes(world, *viewer_ws, statistics);

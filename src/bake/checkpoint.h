@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checkpoints of a bake: files from which it goes on with the bits that it would have had.
+// Checkpoints of a bake: files from which it resumes with bit-identical results.
 //
-// A checkpoint is a field file behind a header with what field files leave out: the light before it
-// is encoded, and what identifies the bake. It does not matter how many ranks wrote it, or read it.
+// A checkpoint is a field file after a header with data that field files do not have: the light
+// before it is encoded, and the identity of the bake. The numbers of ranks that write and read it
+// may differ.
 #pragma once
 
 #include <cstdint>
@@ -18,20 +19,21 @@
 
 namespace lambent {
 
-/// Writes what a field has come to between two updates, whole or not at all. The updates so far
-/// were of this world, unedited, for this viewer, and without a budget. Where ranks share the field
-/// (share_work), all of them call it, and it fails on all of them.
+/// Writes the state of a field between two updates, as a whole file or none. All updates so far
+/// must have been of this world, unedited, for this viewer, and without a budget. If ranks share
+/// the field (share_work), all of them must call it, and it fails on all of them.
 Expected<void> save_checkpoint(const std::string& path, const IrradianceField& field,
                                const World& world, const std::optional<glm::vec3>& viewer_ws);
 
-/// What a checkpoint holds.
+/// The contents of a checkpoint.
 struct Checkpoint {
   float mean_light = 0.0f;   ///< Mean luminance of the probes that are traced.
-  bool warming_up = false;   ///< Some probe has yet to be traced.
-  std::vector<float> light;  ///< Of the texels of all probes, three floats each [W/m^2].
+  bool warming_up = false;   ///< Some probes have not been traced yet.
+  std::vector<float> light;  ///< Irradiance of the texels of all probes, three floats each [W/m^2].
   FieldFile field;
 
-  int updates() const { return static_cast<int>(field.updates); }  ///< That the field has had.
+  /// Number of updates of the field.
+  int updates() const { return static_cast<int>(field.updates); }
 };
 
 /// Reads the checkpoint of a bake of this world for this viewer, whose field has had no update yet.
@@ -41,11 +43,11 @@ Expected<Checkpoint> read_checkpoint(const std::string& path, const World& world
                                      const std::optional<glm::vec3>& viewer_ws,
                                      const IrradianceField& field);
 
-/// Puts that field where the field of the checkpoint was. All ranks that share it call it.
+/// Sets a field to the state of the checkpoint. All ranks that share it must call it.
 void resume_from(const Checkpoint& checkpoint, const World& world,
                  const std::optional<glm::vec3>& viewer_ws, IrradianceField& field);
 
-/// A checksum of all that the bits of a bake depend on, of a field that has had no update yet.
+/// A checksum of everything on which the bits of a bake depend, for a field without updates.
 std::uint32_t bake_identity(const IrradianceField& field, const World& world,
                             const std::optional<glm::vec3>& viewer_ws);
 

@@ -7,14 +7,14 @@
 namespace lambent {
 namespace {
 
-/// What launchers call the number of processes, and the number of this one.
+/// A launcher's environment variables with the number of processes, and with the rank of this one.
 struct LauncherVariables {
   const char* count;
   const char* rank;
 };
 
-/// Open MPI's mpirun; launchers that speak PMI, as MPICH's mpiexec; srun, which tells Open MPI the
-/// rest by PMIx. Slurm sets its variables in the script of a job, too, but PMIX_RANK only in what
+/// Open MPI's mpirun; launchers with PMI, such as MPICH's mpiexec; srun, with PMIx for Open MPI.
+/// Slurm sets its own variables in the script of a job, too, but PMIX_RANK only in processes that
 /// srun starts for MPI.
 constexpr LauncherVariables kLaunchers[] = {{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
                                             {"PMI_SIZE", "PMI_RANK"},

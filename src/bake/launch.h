@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which processes a launcher of MPI programs (mpirun, srun) started together with this one.
+// The processes that a launcher of MPI programs (mpirun, srun) started together with this one.
 #pragma once
 
 namespace lambent {
 
-/// The number of processes, as the launcher tells in the environment; 1 where there was none.
+/// The number of processes, from the launcher's environment variables; 1 without a launcher.
 int launched_processes();
-/// Which of them this one is, from 0.
+/// The rank of this process, from 0.
 int launched_rank();
 
 }  // namespace lambent

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake/mpi_ranks.h"
 
-// The bindings for C++, which Open MPI's header brings along, were removed from the standard
+// Skip Open MPI's C++ bindings, which were removed from the standard
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>
 
@@ -12,13 +12,13 @@
 namespace lambent {
 namespace {
 
-// MPI counts in ints: what is larger goes in pieces of this size [bytes].
+// MPI's counts are ints, so larger data is sent in pieces of this size [bytes].
 constexpr std::size_t kPiece = std::size_t{1} << 30;
 
 }  // namespace
 
 MpiRanks::MpiRanks() {
-  // Threads of ours never call MPI: this one alone does
+  // Only this thread calls MPI
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   MPI_Comm_size(MPI_COMM_WORLD, &count_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the 256 values of an 8-bit channel stand for.
+// Tables that decode the 256 values of an 8-bit channel.
 #pragma once
 
 #include <array>

@@ -12,7 +12,7 @@ namespace lambent {
 #if LAMBENT_CPU
 
 std::uint32_t crc32_of(std::span<const std::byte> bytes, std::uint32_t before) {
-  // zlib takes a null pointer for a wish to start anew
+  // zlib restarts the checksum when it gets a null pointer
   if (bytes.empty()) return before;
   return static_cast<std::uint32_t>(
       crc32_z(before, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
@@ -20,8 +20,8 @@ std::uint32_t crc32_of(std::span<const std::byte> bytes, std::uint32_t before) {
 
 #else
 
-// Where there is no zlib: byte after byte, each by its remainder (ISO 3309, polynomial 0x04C11DB7,
-// bits reversed).
+// Without zlib: a table of remainders, byte by byte (ISO 3309, polynomial 0x04C11DB7, bits
+// reversed).
 std::uint32_t crc32_of(std::span<const std::byte> bytes, std::uint32_t before) {
   static constexpr std::uint32_t kReversedPolynomial = 0xEDB88320u;
   static constexpr auto kRemainders = [] {

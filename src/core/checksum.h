@@ -7,8 +7,8 @@
 
 namespace lambent {
 
-/// The CRC-32 of zlib, PNG and Ethernet. `before` is that of the bytes that came before these; 0:
-/// none.
+/// The CRC-32 of zlib, PNG and Ethernet. `before` is the checksum of the preceding bytes; 0: there
+/// are none.
 std::uint32_t crc32_of(std::span<const std::byte> bytes, std::uint32_t before = 0);
 
 }  // namespace lambent

@@ -17,7 +17,7 @@ namespace {
 
 PlaneLayout::PlaneLayout(int picture_width, int picture_height, int plane_count, int guard_width)
     : width(picture_width), height(picture_height), planes(plane_count), guard(guard_width) {
-  // A guard between planes serves the end of one and the start of the next
+  // The padding between planes is shared by the end of one and the start of the next
   const auto whole_lanes = [](int count) { return (count + kLanes - 1) / kLanes * kLanes; };
   lead = whole_lanes(guard);
   stride = whole_lanes(width) + lead;
@@ -31,7 +31,7 @@ std::vector<BlurTap> box_taps(int radius) {
 }
 
 std::vector<BlurTap> period_taps(int period) {
-  // Of an even period the outermost two share a place
+  // With an even period, the outermost two are the same position
   std::vector<BlurTap> taps = box_taps(period / 2);
   if (period % 2 == 0) taps.back().weight = 0.5f;
   return taps;

@@ -17,7 +17,7 @@ LAMBENT_FORCE_INLINE void lane_weights(Lanes& weight, const GuideLanes& here,
   keep(weight, (cosine > 0.0f) & (near > 0.0f));
 }
 
-/// Light and what it is relit with.
+/// Light and its reorientation R, unpacked.
 struct BlurLanes {
   Lanes light[kLightPlanes], reorientation[kLightPlanes];
 };
@@ -30,7 +30,7 @@ LAMBENT_FORCE_INLINE void load_blurred(BlurLanes& lanes, const ConstPlanes& plan
   }
 }
 
-/// The means of row `i` of pixels and their neighbours.
+/// The weighted means of kLanes pixels, from the `i`-th on, and their neighbours.
 LAMBENT_FORCE_INLINE void blur(BlurLanes& sums, const GuideLanes& here, const BlurSource& centre,
                                const BlurSource* neighbours, std::size_t neighbour_count,
                                float inverse_tolerance, int i) {

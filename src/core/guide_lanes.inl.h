@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where kLanes pixels are, in registers: what kernels over a picture of planes
-// (core/cross_bilateral.h) compare pixels by. Without guard, like lanes.inl.h.
+// The guide of kLanes pixels in registers, by which kernels over a picture of planes
+// (core/cross_bilateral.h) compare pixels. Without an include guard, like lanes.inl.h.
 #include "core/lanes.inl.h"
 
 /// Positions [m] and unit normals of pixels.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// kLanes floats that are worked on together, in the registers of the instruction set that this is
-// included for: see core/simd_levels.h. Without guard; included inside a namespace.
+// Vectors of kLanes floats in registers of the instruction set for which this file is included: see
+// core/simd_levels.h. Without an include guard; included inside a namespace.
 
 // vector_size is understood by g++ and clang.
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 using LaneInts = int __attribute__((vector_size(kLanes * sizeof(int))));
 
-/// kLanes floats from anywhere.
+/// Loads kLanes floats from any address.
 LAMBENT_FORCE_INLINE void load(Lanes& lanes, const float* from) {
   __builtin_memcpy(&lanes, from, sizeof(lanes));
 }

@@ -9,9 +9,9 @@
 namespace lambent {
 namespace {
 
-constexpr std::size_t kLineBytes = 64;                    // a line of the cache
+constexpr std::size_t kLineBytes = 64;                    // a cache line
 constexpr std::size_t kPageBytes = std::size_t{2} << 20;  // a large page of x86-64 and of AArch64
-// From so many on: the last page of an array is half empty on average.
+// Least size for large pages: the last page of an array is half empty on average.
 constexpr std::size_t kManyBytes = 2 * kPageBytes;
 
 std::size_t rounded_up(std::size_t bytes, std::size_t to) {
@@ -27,7 +27,7 @@ void* allocate_pages(std::size_t bytes) {
   void* memory = whole >= bytes ? std::aligned_alloc(unit, whole) : nullptr;
   if (memory == nullptr) throw std::bad_alloc();
 #ifdef MADV_HUGEPAGE
-  // Where the system has none, small ones do
+  // If the system has none, this fails and small pages are used
   if (many) madvise(memory, whole, MADV_HUGEPAGE);
 #endif
   return memory;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory for large arrays that are read all over.
+// Memory for large arrays with random access.
 //
-// Where a program jumps about in more memory than the processor keeps page addresses of, it waits
-// for these more than for what it reads. Large pages need 512 times fewer.
+// Random access to more memory than the TLB covers spends more time on address translation than on
+// the data. Large pages need 512 times fewer TLB entries.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace lambent {
 
-/// `bytes` of memory, aligned to lines of the cache or more; where there are many, in large pages
+/// Allocates `bytes` of memory, aligned to at least a cache line; large allocations use large pages
 /// if the system has them. Throws std::bad_alloc where there is no memory.
 void* allocate_pages(std::size_t bytes);
 void free_pages(void* memory) noexcept;
@@ -33,7 +33,7 @@ struct LargePages {
   }
 };
 
-/// Floats that start at a line of the cache, for kernels whose loads should not straddle two.
+/// Floats that start at a cache line, for kernels whose loads should not cross one.
 using AlignedFloats = std::vector<float, LargePages<float>>;
 
 }  // namespace lambent

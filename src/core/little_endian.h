@@ -13,7 +13,7 @@ namespace lambent {
 
 static_assert(sizeof(float) == sizeof(std::uint32_t), "floats are written as IEEE 754 words");
 
-/// Appends numbers to a growing row of bytes.
+/// Appends numbers to a growing list of bytes.
 class ByteWriter {
  public:
   void u32(std::uint32_t value) { put(value, sizeof(value)); }
@@ -37,7 +37,7 @@ class ByteWriter {
   void raw(std::span<const std::byte> bytes) {
     bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
   }
-  /// Writes over what stands at `offset`.
+  /// Overwrites the number at `offset`.
   void u32_at(std::size_t offset, std::uint32_t value) { put_at(offset, value, sizeof(value)); }
   void u64_at(std::size_t offset, std::uint64_t value) { put_at(offset, value, sizeof(value)); }
 
@@ -60,7 +60,7 @@ class ByteWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// Reads numbers one after the other. Whoever reads asks `left` first: reading past the end is a
+/// Reads numbers one after the other. Callers must check `left` first: reading past the end is a
 /// bug.
 class ByteReader {
  public:

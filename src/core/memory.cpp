@@ -21,7 +21,8 @@ std::uint64_t less(std::uint64_t from, std::uint64_t taken) {
   return from > taken ? from - taken : 0;
 }
 
-/// The number that a file holds alone; none where it holds a word ("max") or is not there.
+/// The number in a file that contains nothing else; none where it contains a word ("max") or does
+/// not exist.
 std::optional<std::uint64_t> number_in(const std::string& path) {
   std::ifstream file(path);
   std::uint64_t number = 0;
@@ -40,14 +41,14 @@ std::optional<std::uint64_t> number_after(const std::string& path, const std::st
   return std::nullopt;
 }
 
-/// What the system could give without swapping (proc(5), MemAvailable).
+/// Memory that the system can provide without swapping (proc(5), MemAvailable).
 std::uint64_t left_by_system(const std::string& root) {
   constexpr std::uint64_t kKibibyte = 1024;
   const auto kibibytes = number_after(root + "/proc/meminfo", "MemAvailable:");
   return kibibytes ? *kibibytes * kKibibyte : kUnlimited;
 }
 
-/// What one control group leaves; files that it has in memory can be dropped.
+/// Memory that one control group leaves; cached files count as free.
 std::uint64_t left_by_group(const std::string& folder, const char* limit_name, const char* use_name,
                             const char* cache_key) {
   const auto limit = number_in(folder + limit_name), use = number_in(folder + use_name);
@@ -55,7 +56,8 @@ std::uint64_t left_by_group(const std::string& folder, const char* limit_name, c
   return less(*limit, less(*use, number_after(folder + "/memory.stat", cache_key).value_or(0)));
 }
 
-/// What the process's control groups leave, each of which bounds those below it (cgroups(7)).
+/// Memory that the process's control groups leave, each of which limits those below it
+/// (cgroups(7)).
 std::uint64_t left_by_groups(const std::string& root) {
   std::uint64_t left = kUnlimited;
   std::ifstream groups(root + "/proc/self/cgroup");
@@ -82,7 +84,7 @@ std::uint64_t left_by_groups(const std::string& root) {
   return left;
 }
 
-/// What the limit of addresses leaves (getrlimit(2), RLIMIT_AS).
+/// Memory that the limit of address space leaves (getrlimit(2), RLIMIT_AS).
 std::uint64_t left_by_limits(const std::string& root) {
   rlimit limit{};
   if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kUnlimited;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much memory there is, asked before work is begun that could not be finished.
+// The available memory, which is checked before work that could run out of it.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,9 @@
 
 namespace lambent {
 
-/// Memory that this process can still take [bytes]: the least of what the system calls available,
-/// what its control groups leave it (containers, systemd), and its resource limits (ulimit -v).
-/// Where nothing is known, all that there could be. `root` stands before /proc and /sys, for tests.
+/// Memory that this process can still take [bytes]: the least of the system's available memory, of
+/// what its control groups (containers, systemd) and its resource limits (ulimit -v) leave.
+/// Unlimited where nothing is known. `root` is a prefix of /proc and /sys, for tests.
 std::uint64_t available_memory(const std::string& root = "");
 
 /// "3.2 GB", in powers of ten.

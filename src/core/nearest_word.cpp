@@ -8,11 +8,11 @@
 namespace lambent {
 namespace {
 
-// A mistyped word has about one wrong character in three at most; more is another word.
+// A mistyped word has at most about one wrong character in three; otherwise it is another word.
 constexpr std::size_t kCharactersPerEdit = 3;
 // Shorter beginnings fit too many words.
 constexpr std::size_t kMinBeginning = 3;
-// Longer texts are not words that anybody mistyped, and would take long to compare [characters].
+// Longer texts [characters] are not mistyped words, and would take long to compare.
 constexpr std::size_t kMaxWord = 256;
 
 std::string in_small_letters(std::string_view word) {

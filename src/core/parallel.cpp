@@ -4,9 +4,8 @@
 #include <numeric>
 #include <vector>
 
-// The thread sanitizer does not see how oneTBB, which is not built for it, hands work from thread
-// to thread, and calls all of it a race; with threads of our own it sees everything. These serve,
-// too, where there is no oneTBB.
+// Under the thread sanitizer, use std::thread: oneTBB is not instrumented, so the sanitizer would
+// report its handing over of work as races. std::thread is also used where oneTBB is missing.
 #if defined(__SANITIZE_THREAD__)
 #define LAMBENT_UNDER_TSAN 1
 #elif defined(__has_feature)
@@ -40,7 +39,7 @@ namespace {
 
 std::size_t thread_count() {
 #if LAMBENT_UNDER_TSAN
-  return 4;  // races between more are found between these
+  return 4;  // enough to find races
 #else
   return std::max(1u, std::thread::hardware_concurrency());
 #endif

@@ -12,8 +12,8 @@ namespace lambent {
 void parallel_chunks(std::size_t count, std::size_t chunk,
                      const std::function<void(std::size_t begin, std::size_t end)>& body);
 
-/// As parallel_chunks, for bodies that return a number; adds the numbers in the order of the
-/// ranges, so that the sum has the same bits whatever the number of threads.
+/// Like parallel_chunks, for bodies that return a number. Adds the numbers in the order of the
+/// ranges, so that the sum has the same bits on any number of threads.
 double parallel_sum(std::size_t count, std::size_t chunk,
                     const std::function<double(std::size_t begin, std::size_t end)>& body);
 

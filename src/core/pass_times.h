@@ -27,12 +27,12 @@ class PassTimer {
   /// The list of passes must outlive it.
   explicit PassTimer(std::vector<PassTime>& passes) : passes_(passes) {}
 
-  /// Counts the time since the last call, or since the start, for a pass, but for `counted` of it
-  /// [ms], which has been counted for others.
+  /// Adds the time since the last call, or since construction, to a pass, less `counted` [ms],
+  /// which was already added to others.
   void finish(std::string_view name, double counted = 0.0) {
     add_pass_time(passes_, name, std::max(watch_.lap() - counted, 0.0));
   }
-  /// Counts the time since the last call for no pass.
+  /// Discards the time since the last call.
   void skip() { watch_.lap(); }
 
  private:

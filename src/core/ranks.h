@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Processes that work on one thing together, each on a part of it, and exchange what the others
-// need. All of them run the same program over the same input, and call the same functions here in
-// the same order.
+// Groups of processes that divide a task among them and exchange data. All of them run the same
+// program with the same input, and call the functions of this file in the same order.
 #pragma once
 
 #include <algorithm>
@@ -14,17 +13,17 @@
 
 namespace lambent {
 
-/// A group of processes, as one of them sees it. Not for use by several threads at a time.
+/// One process's access to its group. Not thread-safe.
 class Ranks {
  public:
   virtual ~Ranks() = default;
 
-  virtual int count() const = 0;  ///< Of the processes, >= 1.
-  virtual int own() const = 0;    ///< Which of them this one is, 0 to count() - 1.
+  virtual int count() const = 0;  ///< Number of processes, >= 1.
+  virtual int own() const = 0;    ///< Rank of this process, 0 to count() - 1.
 
   /// Gives every process the bytes of all: those of process r are [firsts[r], firsts[r + 1]) of
-  /// `bytes`, where process r has put them. `firsts` has count() + 1 entries, the same on all of
-  /// them. Returns once this process has all bytes. A process that is gone ends the whole job.
+  /// `bytes`, where process r has stored them. `firsts` has count() + 1 entries, the same on all of
+  /// them. Returns once this process has all bytes. If a process terminates, the whole job ends.
   virtual void gather_bytes(std::span<std::byte> bytes, std::span<const std::size_t> firsts) = 0;
 };
 

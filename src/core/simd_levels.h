@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kernels written in lanes (core/lanes.inl.h), once for each instruction set.
 //
-// LAMBENT_SIMD_CLONES serves loops that the compiler makes vectors of; operations on vectors that
-// are written as such are split to fit the default instruction set before it makes its clones. So
-// such a kernel stands in a *.inl.h file of its own, which is included once an instruction set:
+// LAMBENT_SIMD_CLONES is for loops that the compiler vectorises. Explicit vector operations are
+// lowered to the default instruction set before the compiler creates clones. Such kernels are
+// therefore in *.inl.h files of their own, which are included once per instruction set:
 //
 //     namespace lambent {
 //     namespace {
@@ -11,15 +11,15 @@
 //     #include "core/simd_levels.inl.h"
 //     }
 //
-// and LAMBENT_BEST_LEVEL(kernel) is the best that the machine runs. Every operation is elementwise
-// and nothing is fused, so all of them compute the same bits.
+// LAMBENT_BEST_LEVEL(kernel) is then the best version that the machine supports. Every operation is
+// elementwise and nothing is fused, so all of them compute the same bits.
 #pragma once
 
 #include "core/simd.h"
 
 namespace lambent {
 
-/// Floats that are worked on together, whatever the instruction set.
+/// Floats per vector, for all instruction sets.
 inline constexpr int kLanes = 16;
 
 }  // namespace lambent

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernels of the file that LAMBENT_KERNELS names, once for each instruction set: see
-// core/simd_levels.h. Without guard; included inside a namespace.
+// Includes the file LAMBENT_KERNELS once per instruction set: see core/simd_levels.h. Without an
+// include guard; included inside a namespace.
 
 namespace baseline {
 #include LAMBENT_KERNELS

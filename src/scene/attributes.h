@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a mesh and its material say at a point of a triangle: interpolated attributes, colour,
-// coverage, emission.
+// The properties of a mesh and its material at a point of a triangle: interpolated attributes,
+// colour, coverage, emission.
 #pragma once
 
 #include "scene/coverage.h"
@@ -13,7 +13,7 @@ static_assert(kAlphaOpaque == static_cast<uint>(AlphaMode::opaque) &&
               kAlphaMask == static_cast<uint>(AlphaMode::mask) &&
               kAlphaBlend == static_cast<uint>(AlphaMode::blend));
 
-// What attributes.inl.h asks for.
+// The types and functions that attributes.inl.h requires.
 using InstanceRef = const Instance&;
 using MeshRef = const Mesh&;
 using MaterialRef = const Material&;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a mesh and its material say at a point of a triangle, in the common subset of C++ and GLSL:
-// interpolated attributes, textures, colour, coverage, emission. Included after texture.inl.h. The
-// includer provides, besides what that asks for, the types
+// The properties of a mesh and its material at a point of a triangle, in the common subset of C++
+// and GLSL: interpolated attributes, textures, colour, coverage, emission. Included after
+// texture.inl.h. The includer provides, in addition to what that file requires, the types
 //   InstanceRef, MeshRef, MaterialRef    with members as in scene.h
 //   TrianglePointRef                     a TrianglePoint, below
 // and
@@ -17,7 +17,7 @@
 //   bool is_unlit(MaterialRef material)
 //   bool may_emit(MaterialRef material)
 //   vec4 sample_texture(SceneRef scene, TextureViewRef view, vec2 uv, float level)
-//       as blended_texel(), with the device's filter
+//       like blended_texel(), with the device's filter
 
 /// A point of a triangle: its three vertices and their weights, which sum to 1.
 struct TrianglePoint {
@@ -78,7 +78,7 @@ LAMBENT_FN int mip_level(SceneRef scene, TextureViewRef view, CornerUvs uvs, Con
                    cone_share.of_triangle);
 }
 
-/// The same without rounding.
+/// The MIP level without rounding; see blended_level() of texture_lookup.h.
 LAMBENT_FN float blended_level(SceneRef scene, TextureViewRef view, CornerUvs uvs,
                                ConeShare cone_share) {
   TextureLevelRef base = fetch_level(scene, view, 0);
@@ -99,9 +99,9 @@ LAMBENT_FN vec4 texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view, Tr
   return nearest_texel(scene, view, uv, mip_level(scene, view, uvs, cone_share));
 }
 
-/// The same, but filtered with weights of full precision where the device's filter is coarse (8
-/// bits, and with some 8 bits in the result, too): for what directions of rays hang on. A mirror
-/// would show the steps.
+/// A texture of a mesh at a point, filtered with weights of full precision. Devices may filter with
+/// weights of 8 bits, and some with results of 8 bits. Textures on which ray directions depend need
+/// more: mirrors would show the steps.
 LAMBENT_FN vec4 precise_texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view,
                                    TrianglePointRef p, ConeShare cone_share) {
   if (view.texture < 0) return vec4(1.0f);
@@ -113,8 +113,8 @@ LAMBENT_FN vec4 precise_texture_at(SceneRef scene, MeshRef mesh, TextureViewRef 
   return blended_texel(scene, view, uv, blended_level(scene, view, uvs, cone_share));
 }
 
-/// Whether a footprint that is not looked at covers so much of a texture that what it shows of it
-/// is all but its mean.
+/// Whether a footprint covers so much of a texture that the result is nearly the texture's mean;
+/// false for footprints whose levels are blended.
 LAMBENT_FN bool shows_mean_alone(SceneRef scene, MeshRef mesh, TextureViewRef view,
                                  TrianglePointRef p, ConeShare cone_share) {
   CornerUvs uvs = corner_uvs(mesh, view, p);
@@ -145,7 +145,7 @@ LAMBENT_FN vec3 emission_at(SceneRef scene, MeshRef mesh, MaterialRef material, 
   return emission;
 }
 
-/// Share of the surface that a clearcoat lies on, 0 to 1.
+/// Share of the surface that is covered by a clearcoat, 0 to 1.
 LAMBENT_FN float clearcoat_at(SceneRef scene, MeshRef mesh, MaterialRef material,
                               TrianglePointRef p, ConeShare cone_share) {
   float clearcoat = material.clearcoat;
@@ -155,8 +155,8 @@ LAMBENT_FN float clearcoat_at(SceneRef scene, MeshRef mesh, MaterialRef material
   return clearcoat;
 }
 
-/// Coverage, 0 to 1: what decides kAlphaMask and kAlphaBlend. Decisions hang on it, so no device's
-/// coarse filter has a part in it.
+/// Coverage, 0 to 1, which decides for kAlphaMask and kAlphaBlend whether a ray is stopped. It is
+/// filtered in full precision, so that all devices decide the same.
 LAMBENT_FN float coverage_at(SceneRef scene, MeshRef mesh, MaterialRef material,
                              TrianglePointRef p) {
   float alpha = material.base_color.w;
@@ -169,7 +169,7 @@ LAMBENT_FN float coverage_at(SceneRef scene, MeshRef mesh, MaterialRef material,
   return alpha;
 }
 
-/// Whether a triangle stops the ray of this mask that meets it there.
+/// Whether a triangle stops a ray with this mask that hits it at these barycentrics.
 LAMBENT_FN bool stops_ray_at(SceneRef scene, uint instance, uint triangle, vec2 barycentrics,
                              float distance, uint ray_mask) {
   MeshRef mesh = fetch_mesh(scene, fetch_instance(scene, instance).mesh);

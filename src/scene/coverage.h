@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which rays see-through triangles stop.
+// Stochastic transparency: which rays are stopped by triangles that are see-through.
 #ifndef LAMBENT_SCENE_COVERAGE_H
 #define LAMBENT_SCENE_COVERAGE_H
 
@@ -8,18 +8,18 @@
 
 LAMBENT_BEGIN
 
-/// AlphaMode of scene.h, by its numbers.
+/// The values of AlphaMode in scene.h.
 const uint kAlphaOpaque = 0u;
 const uint kAlphaMask = 1u;
 const uint kAlphaBlend = 2u;
 
-/// Keeps the hits of neighbouring triangles apart: 2^32 over the golden ratio.
+/// Decorrelates hits of neighbouring triangles: 2^32 over the golden ratio.
 const uint kTriangleHashStep = 0x9E3779B9u;
 
-/// Keeps what decides over glass apart from what decides over coverage.
+/// Decorrelates random decisions at glass from those by coverage.
 const uint kGlassSalt = 0x85EBCA6Bu;
 
-/// A random number in [0, 1) that belongs to this hit alone, so that coverage is decided without
+/// A random number in [0, 1) that depends on this hit alone, so that coverage is decided without
 /// state.
 LAMBENT_FN float uniform_of_hit(vec2 barycentrics, float distance, uint triangle) {
   uvec3 mixed = hash_pcg3d(uvec3(floatBitsToUint(barycentrics.x) ^ (triangle * kTriangleHashStep),
@@ -27,7 +27,7 @@ LAMBENT_FN float uniform_of_hit(vec2 barycentrics, float distance, uint triangle
   return uniform_from_bits(mixed.x);
 }
 
-// The mask of a camera's ray that carries which sample of which pixel it is:
+// The mask of a camera ray that encodes its pixel and sample:
 //   bits 0 to 3    1, which tells such masks from all others (raytracing/ray_records.h) and, as all
 //                  instances have the lowest bit, that it meets all of them
 //   bits 4 to 11   the sample, modulo 256
@@ -46,23 +46,23 @@ LAMBENT_FN bool carries_sample(uint ray_mask) {
   return (ray_mask & kKindMaskBits) == kSampleMaskKind;
 }
 
-/// A random number in [0, 1) that belongs to a pixel's sample at a triangle: the sample's radical
-/// inverse, scrambled. Those of a pixel's first 2^k samples lie in as many equal parts, so that of
-/// four rays one is stopped where the probability of that is a quarter.
+/// A random number in [0, 1) for a pixel's sample at a triangle: the sample's radical inverse,
+/// scrambled. A pixel's first 2^k samples are stratified, so that for example one of four rays is
+/// stopped where the probability is a quarter.
 LAMBENT_FN float uniform_of_sample(uint ray_mask, uint instance, uint triangle) {
   uint seed = hash_pcg(hash_pcg3d(uvec3(ray_mask >> kPixelMaskShift, instance, triangle)).x);
   uint index = (ray_mask >> kSampleMaskShift) & kSampleMaskBits;
   return uniform_from_bits(bitfieldReverse(scramble_reversed(index, seed)));
 }
 
-/// Probability that a ray which meets coverage `alpha` is stopped.
+/// Probability that a ray is stopped by coverage `alpha`.
 LAMBENT_FN float stopping_probability(uint alpha_mode, float alpha_cutoff, float alpha) {
   if (alpha_mode == kAlphaMask) return alpha >= alpha_cutoff ? 1.0f : 0.0f;
   if (alpha_mode == kAlphaBlend) return clamp(alpha, 0.0f, 1.0f);
   return 1.0f;
 }
 
-/// Whether coverage `alpha` stops a ray for which chance drew this number.
+/// Whether coverage `alpha` stops a ray, given its uniform random number.
 LAMBENT_FN bool stops_ray(uint alpha_mode, float alpha_cutoff, float alpha, float uniform_number) {
   if (alpha_mode == kAlphaMask) return alpha >= alpha_cutoff;
   if (alpha_mode == kAlphaBlend) return alpha > uniform_number;

@@ -13,15 +13,15 @@ struct EmitterRecord {
   uint triangle;
   float area;         ///< World space [m^2].
   float probability;  ///< Of being drawn by power.
-  vec3 corner_ws;     ///< Its first corner [m], and from there to the two others.
+  vec3 corner_ws;     ///< Its first corner [m]; the edges lead from it to the others.
   vec3 edge1_ws;
   vec3 edge2_ws;
   vec2 piece_corner;  ///< Barycentrics of that corner in the whole triangle.
-  float piece_size;   ///< Length of edges over the whole triangle's; < 0: they point the other way.
+  float piece_size;   ///< Ratio of its edges to the whole triangle's; < 0: reversed.
 };
 
 // The squared length of the cross product of two edges may be too small for a float. Where it is
-// below this [m^4], the edges are scaled first, by a power of two, which rounds nothing.
+// below this [m^4], the edges are first scaled by a power of two, which is exact.
 const float kLeastSquaredProduct = 1e-30f;
 const float kShortEdgeScale = 1099511627776.0f;  // 2^40
 
@@ -44,7 +44,7 @@ LAMBENT_FN vec3 triangle_normal(vec3 edge1, vec3 edge2) {
   return normalize(cross(kShortEdgeScale * edge1, kShortEdgeScale * edge2));
 }
 
-/// Barycentrics in the whole triangle of a point that has these in the emitter.
+/// Converts barycentrics in the emitter to those in the whole triangle.
 LAMBENT_FN vec2 barycentrics_in_triangle(EmitterRecord emitter, vec2 barycentrics) {
   return emitter.piece_corner + emitter.piece_size * barycentrics;
 }

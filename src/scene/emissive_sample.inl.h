@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What points of emissive triangles send, in the common subset of C++ and GLSL. Included after
-// attributes.inl.h. The includer provides, besides what that asks for,
+// Light emitted by points of emissive triangles, in the common subset of C++ and GLSL. Included
+// after attributes.inl.h. The includer provides, in addition to what that file requires,
 //   bool has_layers(MaterialRef material)
 
-/// What a point of an emissive triangle sends, as far as its coverage stops rays, before it passes
-/// a clearcoat [W/(m^2 sr)]; and the share of the point that one lies on.
+/// Emission of a point of an emissive triangle: the radiance below a clearcoat, multiplied by the
+/// probability that its coverage stops rays [W/(m^2 sr)], and the share that is covered by a
+/// clearcoat.
 struct PointEmission {
   vec3 radiance;
   float clearcoat;
@@ -27,8 +28,8 @@ LAMBENT_FN PointEmission emission_of(SceneRef scene, EmitterRecord emitter, vec2
   return sent;
 }
 
-/// Radiance that reaches who sees the point along a unit direction. The clearcoat has the
-/// triangle's own normal: of what smooth normals and normal maps change there, the mean is little.
+/// Emitted radiance along a unit direction, above the clearcoat [W/(m^2 sr)]. The clearcoat has the
+/// triangle's geometric normal here, since smooth normals and normal maps hardly change the mean.
 LAMBENT_FN vec3 emitted_radiance(SceneRef scene, EmitterRecord emitter, vec2 barycentrics,
                                  vec3 direction_ws) {
   PointEmission sent = emission_of(scene, emitter, barycentrics);

@@ -10,7 +10,7 @@ Expected<Environment> load_environment(const std::string& path) {
   Expected<LayeredImage> image = read_image(path);
   if (!image) return tl::unexpected(std::move(image).error());
   if (image->layers.empty()) return fail(path, "", "the image has no channels");
-  // Of an EXR with several layers the picture itself counts, or the first layer where there is none
+  // Take the unnamed layer of an EXR with several layers, or the first one where there is none
   Layer* layer = &image->layers.front();
   for (Layer& candidate : image->layers) {
     if (candidate.name.empty()) layer = &candidate;
@@ -36,7 +36,7 @@ Expected<Environment> load_environment(const std::string& path) {
           return fail(path, "pixel (" + std::to_string(x) + ", " + std::to_string(y) + ")",
                       "the radiance is above 1e10 W/(m^2 sr)");
         }
-        // Resampling filters leave small negative lobes in published maps
+        // Published maps have small negative values from resampling filters
         out[k] = value > 0.0f ? value : 0.0f;
       }
     }

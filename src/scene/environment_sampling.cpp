@@ -41,7 +41,7 @@ double accumulate(float* weights, int count) {
   return total;
 }
 
-// Where `u` falls in a cumulative table: the cell and the place in it (continuous), and the cell's
+// The cell of a cumulative table that contains `u`, the continuous position, and the cell's
 // probability.
 struct TableSample {
   int cell;

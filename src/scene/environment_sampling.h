@@ -10,7 +10,7 @@
 
 namespace lambent {
 
-// What environment.inl.h asks for.
+// The types and functions that environment.inl.h requires.
 using MapRef = const Image&;
 using EnvironmentRef = const Environment&;
 
@@ -31,8 +31,7 @@ struct EnvironmentSample {
 /// Draws directions with density proportional to the luminance of an environment's map.
 class EnvironmentDistribution {
  public:
-  /// Empty where the environment has no map: a constant sky is best found by rays that surfaces
-  /// scatter.
+  /// Empty where the environment has no map: a constant sky is best sampled by the BRDF.
   explicit EnvironmentDistribution(const Environment& environment);
 
   bool empty() const { return row_cumulative_.empty(); }

@@ -35,7 +35,7 @@ std::size_t rgba_bytes(int width, int height) {
   return static_cast<std::size_t>(width) * height * 4;
 }
 
-// What went wrong on this thread, in the decoder's words where it has any.
+// The decoder's error on this thread; a general message where it has none.
 std::string broken(Format format) {
   const char* reason = format == Format::webp ? nullptr : stbi_failure_reason();
   const std::string cause = "the image is corrupt or truncated";
@@ -57,7 +57,7 @@ Expected<TextureLevel> decode_image(std::span<const std::uint8_t> bytes, const s
     return fail(file, place, "the image is corrupt (impossible Huffman tables)");
   }
 
-  // Ask for the dimensions first: nothing is allocated for absurd ones
+  // Read the dimensions first, so that nothing is allocated for absurd ones
   TextureLevel level;
   int channels = 0;
   const bool readable =

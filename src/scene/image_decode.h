@@ -8,8 +8,8 @@
 
 namespace lambent {
 
-/// Wider or higher images are refused: no texture of a scene needs them, and 4 bytes a texel add
-/// up.
+/// Wider or higher images are refused: no texture needs them, and at 4 bytes per texel they would
+/// take too much memory.
 inline constexpr int kMaxTextureSize = 16384;
 
 /// Decodes PNG, JPEG or WebP to 8-bit RGBA. Errors carry `file` and `place`.

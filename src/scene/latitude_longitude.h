@@ -10,9 +10,9 @@ LAMBENT_BEGIN
 // Largest float below 1: keeps uv inside the last cell.
 const float kBelowOne = 0.99999994f;
 
-/// Where a unit direction lies in a latitude-longitude map: u to the right, v down from +Y, both 0
-/// to 1. Without rotation the middle of the map is -Z and +X is right of it; `rotation` turns the
-/// sky about +Y [rad].
+/// The point of a latitude-longitude map for a unit direction: u to the right, v down from +Y, both
+/// 0 to 1. Without rotation, the middle of the map is -Z and +X is right of it; `rotation` turns
+/// the sky about +Y [rad].
 LAMBENT_FN vec2 latitude_longitude_from_direction(vec3 direction_ws, float rotation) {
   // A turn by +rotation about +Y takes -Z towards -X, which is to the left in the map
   float longitude = atan(direction_ws.x, -direction_ws.z) + rotation;
@@ -29,8 +29,8 @@ LAMBENT_FN vec3 direction_from_latitude_longitude(vec2 uv, float rotation) {
   return vec3(radius * sin(longitude), cos(theta), -radius * cos(longitude));
 }
 
-/// The four texels around a point of a map and where it is between them; wraps around in u, clamps
-/// in v.
+/// The four texels around a point of a map, and its fractional position between them. Wraps around
+/// in u, clamps in v.
 struct MapTexels {
   int left;
   int right;

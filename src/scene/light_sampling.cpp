@@ -14,15 +14,16 @@
 namespace lambent {
 namespace {
 
-// Triangles are divided into at most this many pieces in all, and each into no more than its share
-// of them by power: dividing takes a core 2 ms, and the light tree over the pieces 20 ms and 10 MB.
+// Maximum number of pieces into which all triangles are divided; each triangle gets at most its
+// share of them by power. Dividing takes one core 2 ms, and the light tree over the pieces takes 20
+// ms and 10 MB.
 constexpr double kMostPieces = 1 << 15;
 // Edges are halved at most this often: a quad then has 32 by 32 cells. Light drawn from these costs
 // about as much as from 8 by 8 cells, and has a third of the variance.
 constexpr int kMostHalvings = 5;
 
-// Smaller triangles [m^2] are no lights: the areas of their pieces, and densities over them, would
-// be no numbers.
+// Smaller triangles [m^2] are not lights: the areas of their pieces would underflow, and the
+// densities over them would overflow.
 constexpr float kLeastArea = 1e-34f;
 
 std::uint64_t triangle_key(std::uint32_t instance, std::uint32_t triangle) {
@@ -31,17 +32,17 @@ std::uint64_t triangle_key(std::uint32_t instance, std::uint32_t triangle) {
 
 #include "scene/emissive_sample.inl.h"
 
-/// An emissive triangle that may yet be divided.
+/// An emissive triangle before it is divided.
 struct WholeTriangle {
   std::uint32_t instance, triangle;
   glm::vec3 corner_ws, edge1_ws, edge2_ws;
   float area;
-  float color_bound;     // of vertex colours: they scale texture and factor by no more
+  float color_bound;     // bound of vertex colours, which scale texture and factor
   float mean_luminance;  // without vertex colours [W/(m^2 sr)]
   double power() const { return static_cast<double>(area) * (mean_luminance * color_bound); }
 };
 
-// Places a triangle in the world; what it sends is left to the caller.
+// Transforms a triangle to world space; the caller sets its emission.
 WholeTriangle in_the_world(const Instance& instance, const Mesh& mesh, std::uint32_t index,
                            std::uint32_t triangle) {
   const glm::uvec3& v = mesh.triangles[triangle];
@@ -57,8 +58,8 @@ WholeTriangle in_the_world(const Instance& instance, const Mesh& mesh, std::uint
   return whole;
 }
 
-// Places a piece in the world; its probability is left to the caller. Sizes are powers of two, so
-// that nothing is rounded but the corner.
+// Transforms a piece to world space; the caller sets its probability. Sizes are powers of two, so
+// that only the corner is rounded.
 EmitterRecord record_of(const WholeTriangle& whole, const EmitterPiece& piece) {
   EmitterRecord emitter{};
   emitter.instance = whole.instance;
@@ -100,7 +101,7 @@ std::vector<WholeTriangle> find_emissive(const Scene& scene, const std::vector<E
   return found;
 }
 
-// Returns how often a triangle is halved, by its share of the power of all.
+// Returns how often a triangle is halved, from its share of the total power.
 int halvings_of(double share) {
   int halvings = 0;
   for (double pieces = 4.0; pieces <= share * kMostPieces && halvings < kMostHalvings;
@@ -143,8 +144,8 @@ EmissiveTriangles::EmissiveTriangles(const Scene& scene) : scene_(&scene) {
   double undivided = 0.0;
   for (const WholeTriangle& whole : triangles) undivided += whole.power();
 
-  // Divide triangles; compute each piece's power: its area times the mean radiance of what its
-  // texture shows there
+  // Divide triangles; compute each piece's power from its area and the mean radiance of its part of
+  // the texture
   std::vector<EmitterPiece> pieces;
   std::vector<double> powers;
   double total = 0.0;

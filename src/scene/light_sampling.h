@@ -19,25 +19,25 @@ struct EmissiveSample {
   glm::vec3 position_ws{0.0f};
   glm::vec3 normal_ws{0.0f};  ///< Geometric, unit; both sides emit.
   glm::vec3 radiance{0.0f};   ///< Before it passes a clearcoat [W/(m^2 sr)].
-  float clearcoat = 0.0f;     ///< Share of the point that one lies on, 0 to 1.
+  float clearcoat = 0.0f;     ///< Share covered by a clearcoat, 0 to 1.
   float pdf_area = 0.0f;  ///< Over the area of all emissive triangles [1/m^2]; 0: there are none.
 };
 
-/// An entry that was picked, and what is left of the uniform number that picked it.
+/// An entry that was picked, and the uniform number that picked it, rescaled.
 struct EmitterPick {
   std::uint32_t emitter;
   float probability;  ///< Of picking it.
-  float rest;         ///< Uniform again, 0 to 1.
+  float rest;         ///< Uniform, 0 to 1.
 };
 
-/// A light as formulas see it.
+/// Converts a light to the form that shared mathematics uses.
 LightRecord light_record(const Light& light);
 
-/// What `light` sends to `position_ws`; irradiance 0 outside its cone or range.
+/// The unoccluded light from `light` at `position_ws`; irradiance 0 outside its cone or range.
 PunctualSample sample_punctual(const Light& light, const glm::vec3& position_ws);
 
 /// All emissive triangles of a scene, drawn with probability proportional to their power. Those
-/// whose texture emits unevenly are drawn in pieces, and what is dark of them is not drawn.
+/// whose texture emits unevenly are drawn in pieces, and dark pieces are not drawn.
 class EmissiveTriangles {
  public:
   explicit EmissiveTriangles(const Scene& scene);
@@ -51,8 +51,8 @@ class EmissiveTriangles {
   /// Picks an entry by power. There must be one.
   EmitterPick pick(float u) const;
 
-  /// What a point of an entry, with barycentrics in that, sends, as far as its coverage stops rays
-  /// and its clearcoat lets light pass along a unit direction [W/(m^2 sr)].
+  /// The radiance that a point of an entry emits along a unit direction, including its coverage and
+  /// the transmittance of its clearcoat [W/(m^2 sr)]. `barycentrics` are those in the entry.
   glm::vec3 radiance(const EmitterRecord& emitter, const glm::vec2& barycentrics,
                      const glm::vec3& direction_ws) const;
 
@@ -76,7 +76,7 @@ class EmissiveTriangles {
   std::vector<EmitterRecord> entries_;
   std::vector<Bounds> bounds_;
   std::vector<float> cumulative_;
-  std::unordered_map<std::uint64_t, std::uint32_t> links_;  // by which pieces_ finds entries
+  std::unordered_map<std::uint64_t, std::uint32_t> links_;  // links of pieces_, by triangle
   float total_power_ = 0.0f;
 };
 

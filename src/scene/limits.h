@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ranges of numbers from outside: files, options, scenes made by hand. Within them every
-// formula of the library stays finite in 32-bit arithmetic; beyond them a number is refused, or
-// brought back with a warning, before anything is computed from it.
+// The ranges of numbers from files, options and scenes made by hand. Within them every formula of
+// the library stays finite in 32-bit arithmetic. Numbers outside are refused, or clamped with a
+// warning, before anything is computed from them.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -17,7 +17,8 @@ namespace lambent {
 inline constexpr float kMaxCoordinate = 1e9f;
 
 /// Largest coordinate of a camera that the program chooses [m]: from there the narrowest field of
-/// view that can be asked for, one degree, holds geometry of kMaxCoordinate. Its square is a float.
+/// view that can be requested, one degree, contains geometry of kMaxCoordinate. Its square is a
+/// float.
 inline constexpr float kMaxViewpoint = 1e12f;
 
 /// Range of the largest factor by which a transform stretches: the determinant, its cube, and the
@@ -26,14 +27,14 @@ inline constexpr float kMinScale = 1e-10f;
 inline constexpr float kMaxScale = 1e10f;
 
 /// Largest radiance of skies and emissive surfaces [W/(m^2 sr)]: above that of the sun, 2e7, even
-/// where the file counts in candela, 1.6e9. The square of a sum of such samples is still a float.
+/// where the file is in candela, 1.6e9. The square of a sum of such samples is still a float.
 inline constexpr float kMaxRadiance = 1e10f;
 
 /// Largest irradiance of a directional light [W/m^2]: that of kMaxRadiance from some steradians.
 inline const float kMaxIrradiance = kMaxPunctualIrradiance;
 
-/// Largest radiant intensity of point and spot lights [W/sr]: as much light as the sun's, 1e3
-/// W/m^2, from 30 km away. What it gives nearby is bounded by kMaxIrradiance.
+/// Largest radiant intensity of point and spot lights [W/sr]: the irradiance of the sun, 1e3 W/m^2,
+/// from 30 km away. Irradiance nearby is clamped to kMaxIrradiance.
 inline constexpr float kMaxIntensity = 1e12f;
 
 /// Largest texture coordinate, and number in a transform of such [textures]. The square of a
@@ -55,9 +56,10 @@ inline constexpr float kMaxViewExtent = 2.0f * kMaxCoordinate;
 /// Largest ratio of a view's sides, and of its inverse: pictures are 1 to 16384 pixels wide.
 inline constexpr float kMaxAspect = 16384.0f;
 
-/// Range of fog. The densest, 1e6 / m, is opaque within a hair's breadth. Scattering that is any
-/// more one-sided than 0.95 shows in a cone of three degrees, finer than any froxel. Beneath the
-/// least scale height [m] fog is a sheet; above the largest it is constant within all there can be.
+/// Ranges of fog. The densest, 1e6 / m, is opaque within a hair's breadth. Scattering with an
+/// anisotropy above 0.95 is concentrated in a cone of three degrees, narrower than any froxel.
+/// Below the least scale height [m] fog is a sheet; above the largest one it is constant within
+/// kMaxCoordinate.
 inline constexpr float kMaxFogDensity = 1e6f;
 inline constexpr float kMaxFogAnisotropy = 0.95f;
 inline constexpr float kMinFogScaleHeight = 1e-3f;

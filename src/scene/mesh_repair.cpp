@@ -68,7 +68,7 @@ UvFrame uv_frame(const Mesh& mesh, const glm::uvec3& t, int uv_set) {
   const glm::dvec2 d2 = glm::dvec2(uvs[t.z]) - glm::dvec2(uvs[t.x]);
   const double area = d1.x * d2.y - d1.y * d2.x;
   UvFrame frame;
-  // With v pointing down a positive area is a mirrored image
+  // Since v points down, a positive area means a mirrored image
   frame.mirrored = area > 0.0;
   const glm::dvec3 tangent = (e1 * d2.y - e2 * d1.y) * (area < 0.0 ? -1.0 : 1.0);
   const double length = glm::length(tangent);
@@ -85,8 +85,7 @@ double corner_angle(const Mesh& mesh, const glm::uvec3& t, int corner) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// Gives triangles with mirrored coordinates vertices of their own where unmirrored ones use them
-// too.
+// Duplicates vertices that triangles with mirrored coordinates share with unmirrored ones.
 void split_mirrored_vertices(Mesh& mesh, const std::vector<UvFrame>& frames,
                              VertexOrigins* origins) {
   constexpr std::uint32_t kNone = ~0u;
@@ -112,7 +111,7 @@ void split_mirrored_vertices(Mesh& mesh, const std::vector<UvFrame>& frames,
 }  // namespace
 
 std::size_t drop_degenerate_triangles(Mesh& mesh) {
-  // In float, as the passes compute it: what vanishes there has no normal for them
+  // Computed in float, as in the passes, which cannot compute a normal where this underflows
   const auto is_degenerate = [&mesh](const glm::uvec3& triangle) {
     const glm::vec3 a = mesh.positions[triangle.x];
     return !has_direction(
@@ -224,7 +223,8 @@ void make_tangents(Mesh& mesh, int uv_set, VertexOrigins* origins) {
   }
   split_mirrored_vertices(mesh, frames, origins);
 
-  // Sum the triangles' tangents at each vertex, projected to its plane, weighted by the angle there
+  // Sum the triangles' tangents at each vertex, projected to its tangent plane, weighted by the
+  // angle there
   std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0.0));
   mesh.tangents.assign(mesh.positions.size(), glm::vec4(0.0f, 0.0f, 0.0f, 1.0f));
   for (std::size_t i = 0; i < frames.size(); ++i) {

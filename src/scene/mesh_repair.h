@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a mesh from a file may lack before it can be rendered.
+// Repairs of meshes from files, so that they can be rendered.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,15 @@
 
 namespace lambent {
 
-/// Which vertex each vertex was before any repair. Functions that renumber vertices keep it right
-/// where it is given.
+/// The original index of each vertex, before any repair. Functions that renumber vertices update it
+/// if it is given.
 using VertexOrigins = std::vector<std::uint32_t>;
 
-/// Drops triangles without area, for which there is no normal. Returns how many.
+/// Drops triangles without area, which have no normal. Returns their number.
 std::size_t drop_degenerate_triangles(Mesh& mesh);
 
 /// Drops vertices that no triangle uses: primitives of one file often share a vertex buffer of
-/// which each uses a part, and bounds are those of all vertices.
+/// which each uses a part, and unused vertices would enlarge the bounds.
 void drop_unused_vertices(Mesh& mesh, VertexOrigins* origins = nullptr);
 
 /// Gives each triangle vertices of its own with its geometric normal (glTF 2.0, sec. 3.7.2.1).

@@ -73,7 +73,7 @@ class Writer {
   ByteWriter bytes_;
 };
 
-/// Once something is wrong, reads nothing more and keeps what was wrong first.
+/// After the first error it reads nothing more, and it stores that error.
 class Reader {
  public:
   template <class T>
@@ -122,7 +122,7 @@ class Reader {
   void list(const char* name, std::vector<T>& values) {
     std::uint64_t count = 0;
     length(count);
-    // Grows with what is read, so that a count that is broken costs no memory
+    // Grow the list as entries are read, so that a corrupt count costs no memory
     for (std::uint64_t i = 0; i < count && cause_ == nullptr; ++i) {
       place_ = std::string(name) + "[" + std::to_string(i) + "]";
       fields(*this, values.emplace_back());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes as they stand in memory, in a file that is read without any other library: for machines
-// that have little more than a compiler, and for our own tools alone. Another version of Lambent
-// refuses it.
+// Scenes in a file format that mirrors their layout in memory and is read without any other
+// library: for machines with little more than a compiler, and only for Lambent's own tools. Other
+// versions of Lambent refuse such files.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace lambent {
 
-/// Writes everything of a scene but its animations and its rig, whole or not at all: it stays as it
-/// is posed now.
+/// Writes a scene in its current pose, without its animations and its rig. Writes a whole file or
+/// none.
 Expected<void> save_prepared(const Scene& scene, const std::string& path);
 
 /// Reads what save_prepared wrote. Fails, naming the place, on files that are cut short, broken or

@@ -7,20 +7,20 @@
 
 LAMBENT_BEGIN
 
-/// Light::Type of scene.h, by its numbers.
+/// The values of Light::Type in scene.h.
 const uint kLightDirectional = 0u;
 const uint kLightPoint = 1u;
 const uint kLightSpot = 2u;
 
-/// A light as formulas see it; as struct Light of scene.h.
+/// A light in the form that shared mathematics uses; see struct Light of scene.h.
 struct LightRecord {
   vec3 intensity;     ///< Directional: irradiance [W/m^2]; else radiant intensity [W/sr].
   uint type;          ///< kLightDirectional, ...
   vec3 position_ws;   ///< [m]
   float range;        ///< [m]; 0: infinite.
-  vec3 direction_ws;  ///< The way the light travels; unit.
-  float cos_outer;    ///< Of a spot light's outer cone.
-  float cone_scale;   ///< Of a spot light: by which cosines beyond cos_outer grow to 1.
+  vec3 direction_ws;  ///< Direction in which the light travels; unit.
+  float cos_outer;    ///< Cosine of a spot light's outer cone angle.
+  float cone_scale;   ///< Of a spot light: factor that maps cosines above cos_outer to 0 to 1.
 };
 
 /// Light that reaches a point from a light without extent.
@@ -34,13 +34,14 @@ struct PunctualSample {
 // recommends.
 const float kMinConeCosineRange = 1e-3f;
 
-/// Irradiance beyond which no light without extent goes [W/m^2]: inverse squares grow without bound
-/// near a light, and the square of a sum of such samples must still be a float.
+/// Irradiance of lights without extent is clamped to this [W/m^2]: inverse squares grow without
+/// bound near a light, and the square of a sum of such samples must be finite in a float.
 const float kMaxPunctualIrradiance = 1e10f;
-/// Who is nearer than the root of this stands in the light [m^2]: its inverse is still a float.
+/// Points at a smaller squared distance [m^2] count as inside the light and receive nothing. Its
+/// inverse is finite in a float.
 const float kMinSquaredLightDistance = 1e-30f;
 
-/// KHR_lights_punctual, "Inner and Outer Cone Angles": the factor of cosines.
+/// KHR_lights_punctual, "Inner and Outer Cone Angles": LightRecord::cone_scale.
 LAMBENT_FN float cone_scale(float cos_inner, float cos_outer) {
   return 1.0f / max(kMinConeCosineRange, cos_inner - cos_outer);
 }
@@ -58,7 +59,7 @@ LAMBENT_FN float range_attenuation(float range, float distance) {
   return clamp(1.0f - share * share * share * share, 0.0f, 1.0f);
 }
 
-/// What `light` sends to a point; irradiance 0 outside its cone or range.
+/// The unoccluded light from `light` at a point; irradiance 0 outside its cone or range.
 LAMBENT_FN PunctualSample sample_punctual(LightRecord light, vec3 position_ws) {
   PunctualSample result = {vec3(0.0f), vec3(0.0f), 0.0f};
   if (light.type == kLightDirectional) {

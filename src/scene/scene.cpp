@@ -9,7 +9,7 @@ Camera look_at(const glm::vec3& eye, const glm::vec3& target, float vertical_fov
   const glm::vec3 offset = eye - target;
   const float distance = glm::length(offset);
   const glm::vec3 back = distance > 0.0f ? offset / distance : glm::vec3(0.0f, 0.0f, 1.0f);
-  // Looking straight up or down leaves +Y without meaning; -Z takes its place
+  // Use -Z in place of +Y when looking straight up or down
   constexpr float kParallel = 1.0f - 1e-6f;
   const glm::vec3 up =
       std::abs(back.y) < kParallel ? glm::vec3(0.0f, 1.0f, 0.0f) : glm::vec3(0.0f, 0.0f, -1.0f);

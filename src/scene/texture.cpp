@@ -13,8 +13,8 @@ namespace lambent {
 namespace {
 
 constexpr float kMaxByte = 255.0f;
-// Entries of the table that encodes linear light: fine enough that its steps stay below a tenth of
-// an 8-bit sRGB step where sRGB is steepest (12.92 * 255 / 65536 = 0.05).
+// Entries of the table that encodes linear light: its steps are below a tenth of an 8-bit sRGB step
+// where sRGB is steepest (12.92 * 255 / 65536 = 0.05).
 constexpr int kEncodeEntries = 65536;
 
 std::uint8_t byte_from_unit(float value) {
@@ -39,8 +39,7 @@ struct Taps {
   int count = 0;
 };
 
-// Exact coverage of texel `i` of `coarse`, also where `fine` is odd and its texels straddle
-// borders.
+// Exact coverage of texel `i` of `coarse`, also where `fine` is odd and its texels cross borders.
 Taps box_taps(int i, int fine, int coarse) {
   Taps taps;
   const float width = static_cast<float>(fine) / static_cast<float>(coarse);

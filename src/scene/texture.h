@@ -14,7 +14,7 @@ static_assert(kWrapRepeat == static_cast<uint>(Wrap::repeat) &&
               kWrapMirroredRepeat == static_cast<uint>(Wrap::mirrored_repeat) &&
               kWrapClampToEdge == static_cast<uint>(Wrap::clamp_to_edge));
 
-/// A MIP level, and what its bytes stand for.
+/// A MIP level, and the tables that decode its bytes to linear values.
 struct DecodedLevel {
   const std::uint8_t* rgba;
   int width;   ///< [texels]
@@ -23,7 +23,7 @@ struct DecodedLevel {
   const float* alpha;
 };
 
-// What texture.inl.h asks for.
+// The types and functions that texture.inl.h requires.
 using SceneRef = const Scene&;
 using TextureViewRef = const TextureView&;
 using TextureLevelRef = DecodedLevel;
@@ -58,7 +58,7 @@ inline vec4 fetch_texel(const DecodedLevel& level, int x, int y) {
 
 #include "scene/texture.inl.h"
 
-/// A texture as its view says, at a MIP level; 0: at full size.
+/// Samples a texture through a view, at a MIP level; 0: at full size.
 inline vec4 sample_texture(const Scene& scene, const TextureView& view, vec2 uv,
                            float level = 0.0f) {
   return blended_texel(scene, view, uv, level);
@@ -74,7 +74,7 @@ auto texture_views(AMaterial& m) {
       &m.clearcoat_normal_texture, &m.sheen_color_texture,        &m.sheen_roughness_texture};
 }
 
-/// Whether this is one of the views of the material's sheen or clearcoat.
+/// Whether `view` belongs to the material's sheen or clearcoat.
 inline bool is_of_layers(const Material& m, const TextureView* view) {
   return view == &m.clearcoat_texture || view == &m.clearcoat_roughness_texture ||
          view == &m.clearcoat_normal_texture || view == &m.sheen_color_texture ||

@@ -23,9 +23,9 @@ LAMBENT_FN vec2 wrap_uv(TextureViewRef view, vec2 uv) {
               wrap_coordinate(transformed.y, wrap_v(view)));
 }
 
-/// The one texel of a MIP level (clamped to what exists) at texture coordinates: linear RGBA.
-/// Enough where the level was picked so that a texel is as wide as what asks, and four times as
-/// fast.
+/// The nearest texel of a MIP level (clamped to the existing ones) at texture coordinates: linear
+/// RGBA. Sufficient where the level was chosen so that a texel is as wide as the footprint, and
+/// four times as fast as bilinear filtering.
 LAMBENT_FN vec4 nearest_texel(SceneRef scene, TextureViewRef view, vec2 uv, int wanted_level) {
   TextureLevelRef level =
       fetch_level(scene, view, clamp(wanted_level, 0, level_count(scene, view) - 1));
@@ -34,8 +34,8 @@ LAMBENT_FN vec4 nearest_texel(SceneRef scene, TextureViewRef view, vec2 uv, int 
                      nearest_index(wrapped.y, level.height, wrap_v(view)));
 }
 
-/// The blend of the four texels whose centres surround a place that wrap_uv() gave, with weights to
-/// float precision.
+/// Bilinear interpolation of the four texels whose centres surround a point from wrap_uv(), with
+/// weights in float precision.
 LAMBENT_FN vec4 bilinear_texel(TextureViewRef view, TextureLevelRef level, vec2 wrapped) {
   TexelPair x = texels_around(wrapped.x, level.width, wrap_u(view));
   TexelPair y = texels_around(wrapped.y, level.height, wrap_v(view));
@@ -45,14 +45,15 @@ LAMBENT_FN vec4 bilinear_texel(TextureViewRef view, TextureLevelRef level, vec2 
          (x.fraction * y.fraction) * fetch_texel(level, x.second, y.second);
 }
 
-/// The texel at full size as the view says, nearest or bilinear, with weights to float precision.
+/// The texture at full size, nearest or bilinear depending on the view, with weights in float
+/// precision.
 LAMBENT_FN vec4 filtered_texel(SceneRef scene, TextureViewRef view, vec2 uv) {
   if (is_nearest(view)) return nearest_texel(scene, view, uv, 0);
   return bilinear_texel(view, fetch_level(scene, view, 0), wrap_uv(view, uv));
 }
 
-/// The texel at a level of blended_level(), clamped to what exists: of views that are not point
-/// samples the blend of the levels around it, each bilinear.
+/// The texture at a fractional level from blended_level(), clamped to the existing levels.
+/// Trilinear, except for views with point sampling.
 LAMBENT_FN vec4 blended_texel(SceneRef scene, TextureViewRef view, vec2 uv, float wanted_level) {
   if (is_nearest(view)) return nearest_texel(scene, view, uv, int(wanted_level + 0.5f));
   float between = min(wanted_level, float(level_count(scene, view) - 1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which texels a texture coordinate asks for.
+// The texels and MIP levels that a texture coordinate and a footprint read.
 #ifndef LAMBENT_SCENE_TEXTURE_LOOKUP_H
 #define LAMBENT_SCENE_TEXTURE_LOOKUP_H
 
@@ -7,7 +7,7 @@
 
 LAMBENT_BEGIN
 
-/// Wrap of scene.h, by its numbers.
+/// The values of Wrap in scene.h.
 const uint kWrapRepeat = 0u;
 const uint kWrapMirroredRepeat = 1u;
 const uint kWrapClampToEdge = 2u;
@@ -26,15 +26,15 @@ const float kAllFloatsAreIntegers = 8388608.0f;  // from 2^23 on
 const uint kFloatExponentMask = 0x7F800000u;
 const uint kOneBits = 0x3F800000u;  // of 1.0
 
-/// The library's floor is a call on a baseline processor.
+/// std::floor is a function call on a baseline processor, hence this one.
 LAMBENT_FN float fast_floor(float value) {
   if (!(abs(value) < kAllFloatsAreIntegers)) return value;
   float truncated = float(int(value));
   return truncated > value ? truncated - 1.0f : truncated;
 }
 
-/// Texture coordinate brought into [0, 1], [0, 2] where it mirrors, so that texel indices stay
-/// within one of the texture; 0 where it is not finite.
+/// Texture coordinate wrapped to [0, 1], or to [0, 2] for kWrapMirroredRepeat, so that texel
+/// indices are at most one outside the texture; 0 where it is not finite.
 LAMBENT_FN float wrap_coordinate(float u, uint wrap) {
   if ((floatBitsToUint(u) & kFloatExponentMask) == kFloatExponentMask) return 0.0f;
   if (wrap == kWrapRepeat) return u - fast_floor(u);
@@ -42,8 +42,8 @@ LAMBENT_FN float wrap_coordinate(float u, uint wrap) {
   return u - 2.0f * fast_floor(0.5f * u);
 }
 
-/// Texel index after wrapping, for indices that come from wrap_coordinate or are one off: no
-/// division.
+/// Texel index after wrapping, without a division, for indices from wrap_coordinate and those one
+/// off.
 LAMBENT_FN int wrap_index(int i, int size, uint wrap) {
   if (wrap == kWrapRepeat) {
     if (i < 0) return i + size;
@@ -93,11 +93,11 @@ LAMBENT_FN int mip_level(vec2 uv_edge1, vec2 uv_edge2, vec2 uv_scale, int width,
   return (int(floatBitsToUint(2.0f * cone_texels) >> 23u) - 127) / 2;
 }
 
-/// How much of a triangle the cone of a ray covers, by which textures are read there.
+/// The share of a triangle that a ray's cone covers, from which MIP levels are chosen.
 struct ConeShare {
   float of_triangle;  ///< The cone's cross section over the triangle's area; 0: full resolution.
-  uint blended;  ///< 1: texels and MIP levels are blended, for what is looked at; 0: one texel is
-                 ///< enough, since many such rays are averaged.
+  uint blended;       ///< 1: texels and MIP levels are interpolated, for surfaces in view; 0: the
+                      ///< nearest texel is enough, since many such rays are averaged.
 };
 
 LAMBENT_FN ConeShare full_resolution() {
@@ -105,9 +105,8 @@ LAMBENT_FN ConeShare full_resolution() {
   return none;
 }
 
-/// The same as mip_level() without rounding: how many times the texture is halved where a cone
-/// covers one texel. Between powers of two the logarithm is taken to be linear, which is off by at
-/// most 0.05.
+/// mip_level() without rounding. The logarithm is approximated as linear between powers of two,
+/// with an error of at most 0.05.
 LAMBENT_FN float blended_level(vec2 uv_edge1, vec2 uv_edge2, vec2 uv_scale, int width, int height,
                                float share_of_triangle) {
   float triangle_texels =
@@ -121,21 +120,21 @@ LAMBENT_FN float blended_level(vec2 uv_edge1, vec2 uv_edge2, vec2 uv_scale, int 
   return 0.5f * (float(int(bits >> 23u) - 127) + (mantissa - 1.0f));
 }
 
-// Two levels are blended over half of the way from one to the next, so that half of all reads need
-// one alone: nobody sees the difference.
+// Two levels are interpolated only over the middle half of the interval between them, so that half
+// of all reads need a single level. The difference is not visible.
 const float kLevelBlend = 2.0f;
 
-/// Share of the coarser of two levels where the level that is wanted is so far between them.
+/// Weight of the coarser of two levels, from the fractional part of the level.
 LAMBENT_FN float level_share(float between) {
   return clamp((between - 0.5f) * kLevelBlend + 0.5f, 0.0f, 1.0f);
 }
 
-// Details are averaged over from this level on, and few such averages fit into a texture that has
-// no more coarser levels than this.
+// From kMinMeanLevel on, details are averaged out; with at most kMaxLevelsToCoarsest coarser
+// levels, the texture consists of only a few such averages.
 const int kMinMeanLevel = 2;
 const int kMaxLevelsToCoarsest = 4;
 
-/// Whether what a level shows of a texture is all but its mean.
+/// Whether a level of a texture is nearly uniform, and so close to the texture's mean.
 LAMBENT_FN bool shows_mean_alone(int level, int coarsest) {
   return level >= kMinMeanLevel && coarsest - level <= kMaxLevelsToCoarsest;
 }

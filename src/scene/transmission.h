@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which materials stop rays, which of them let light through, and which have layers on them.
+// Which materials stop rays, which ones transmit light, and which ones have layers.
 #pragma once
 
 #include "lambent/scene.h"
 
 namespace lambent {
 
-/// Whether some point of the material may let light through its surface (Material::transmission).
+/// Whether some point of the material may transmit light (Material::transmission).
 inline bool is_transmissive(const Material& material) {
   const bool dielectric =
       material.metallic < 1.0f || material.metallic_roughness_texture.texture >= 0;
@@ -19,7 +19,7 @@ inline bool has_layers(const Material& material) {
   return any && !material.unlit && !material.lambert;
 }
 
-/// Whether every ray that meets the material ends there.
+/// Whether every ray that hits the material ends there.
 inline bool stops_all_rays(const Material& material) {
   return material.alpha_mode == AlphaMode::opaque && !is_transmissive(material);
 }

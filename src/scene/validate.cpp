@@ -13,8 +13,8 @@
 namespace lambent {
 namespace {
 
-// Deviation from 1 up to which a stored direction counts as unit length: several steps of float
-// noise and of hand-written constants, far below what shading could show.
+// Deviation from 1 up to which a stored direction counts as unit length: above the rounding of
+// floats and of hand-written constants, and far below visible differences of shading.
 constexpr float kUnitTolerance = 1e-3f;
 
 bool finite(float v) {
@@ -273,7 +273,7 @@ const char* flaw_of(const Environment& environment) {
 
 namespace {
 
-// The first flaw of an array's entries, with its place.
+// Fails with the first flaw of an array's entries, and its place.
 template <class T, class... Counts>
 Expected<void> check_array(const Scene& scene, const char* name, const std::vector<T>& entries,
                            Counts... counts) {
@@ -285,7 +285,7 @@ Expected<void> check_array(const Scene& scene, const char* name, const std::vect
   return {};
 }
 
-// Whether all instances, otherwise without flaw, are where things can be.
+// Checks that all instances, otherwise valid, are within the range of coordinates.
 Expected<void> check_reach(const Scene& scene) {
   std::vector<Bounds> bounds;
   bounds.reserve(scene.meshes.size());

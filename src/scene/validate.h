@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is wrong with a part of a scene, in words; null: nothing. For those who check parts of it.
+// Checks of parts of a scene. Each flaw_of returns a description of the first flaw, or null.
 #pragma once
 
 #include <cstddef>
@@ -9,13 +9,13 @@
 namespace lambent {
 
 const char* flaw_of(const Texture& texture);
-/// `textures`: how many the scene has.
+/// `textures`: number of textures in the scene.
 const char* flaw_of(const Material& material, std::size_t textures);
-/// `materials`: how many the scene has.
+/// `materials`: number of materials in the scene.
 const char* flaw_of(const Mesh& mesh, std::size_t materials);
-/// `meshes`: how many the scene has.
+/// `meshes`: number of meshes in the scene.
 const char* flaw_of(const Instance& instance, std::size_t meshes);
-/// What is wrong with where an instance, otherwise without flaw, puts a mesh of these bounds.
+/// Checks where an instance, otherwise valid, places a mesh of these bounds.
 const char* flaw_of_reach(const Instance& instance, const Bounds& mesh);
 const char* flaw_of(const Light& light);
 const char* flaw_of(const Camera& camera);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the share of light that a surface reflects depends on the direction from which it comes in.
+// How the share of light that a surface reflects depends on the light's direction.
 //
-// Hits of rays reflect by their directional albedo a(v) towards the viewer, as if all light came
-// evenly from everywhere. Light of sources comes from one direction: a(v) alone reflects too much
-// of a high sun on a glossy floor, too little of it on a wall, and none of it more in one direction
-// than in another. reflected_over_albedo() mends that with the surface's reflection function.
-// Layers are too many numbers for it: what they reflect is taken to be even, a(v) a(l) / (mean of
-// a), which is reciprocal and reflects the right share of light from any direction.
+// Hits of rays reflect light by their directional albedo a(v) towards the viewer, which is exact
+// for light from a uniform sky. Light of a source comes from one direction: a(v) alone reflects too
+// much of a high sun on a glossy floor, too little of it on a wall, and has no highlight.
+// reflected_over_albedo() corrects this with the surface's BRDF. Surfaces with layers have too many
+// parameters to store; their reflection is approximated by a(v) a(l) / (mean of a), which is
+// reciprocal and reflects the right share of light from any direction.
 //
 // Based on: Kelemen and Szirmay-Kalos, "A Microfacet Based Coupled Specular-Matte BRDF Model with
 // Importance Sampling", Eurographics short papers, 2001, sec. 2.2.
@@ -32,12 +32,13 @@ LAMBENT_FN float mean_ggx_schlick(float roughness) {
 /// The mean of mean_base_schlick over the same light.
 const float kMeanBaseSchlick = 0.00369f;
 
-// The shape is four numbers of 8 bits. Of f0 the square root is kept, which holds 0.04 to 2 %.
+// The shape is four numbers of 8 bits. f0 is stored as its square root, which represents 0.04 to
+// within 2 %.
 const float kAlbedoShapeSteps = 255.0f;
 
-// Where layers lie on the surface, the highest of these is 0, which is no roughness of a coat; the
-// shape is then 1 + k1 (s - 1/3) + k5 (s^5 - 1/21) with s = 1 - n_dot_l, of mean 1, and the two
-// numbers have 12 bits each.
+// For surfaces with layers, the highest of the four bytes is 0, which no roughness encodes to. The
+// shape is then 1 + k1 (s - 1/3) + k5 (s^5 - 1/21) with s = 1 - n_dot_l, whose mean is 1, and k1
+// and k5 have 12 bits each.
 const float kLayeredShapeSteps = 4095.0f;
 const float kLeastShapeFactor = -8.0f;
 const float kShapeFactorRange = 32.0f;
@@ -45,9 +46,9 @@ const float kShapeFactorRange = 32.0f;
 const float kMeanFirst = 1.0f / 3.0f;
 const float kMeanFifth = 1.0f / 21.0f;
 
-/// The factors k1 and k5 that fit the albedo of a gray surface with layers best.
+/// The factors k1 and k5 that best fit the albedo of a gray surface with layers.
 LAMBENT_FN vec2 layered_shape_factors(Reflectance gray) {
-  // Gauss's and Legendre's points in the cosine
+  // Nodes and weights of Gauss-Legendre quadrature over the cosine
   const float points[5] = {0.0469101f, 0.2307653f, 0.5f, 0.7692347f, 0.9530899f};
   const float weights[5] = {0.1184634f, 0.2393143f, 0.2844444f, 0.2393143f, 0.1184634f};
   float albedos[5];
@@ -93,8 +94,8 @@ LAMBENT_FN float layered_albedo_towards(uint shape, float n_dot_l) {
   return max(1.0f + factors.x * (s - kMeanFirst) + factors.y * (s2 * s2 * s - kMeanFifth), 0.0f);
 }
 
-/// Packs the luminances of a surface's base and f0, its f90 and its roughness; of layers as above.
-/// 0 where there is no coat: the albedo is then the same for all directions.
+/// Packs the luminances of a surface's base and f0, its f90 and its roughness, or for layers k1 and
+/// k5. 0 for a Lambert surface, whose albedo is the same for all directions.
 LAMBENT_FN uint encode_albedo_shape(Reflectance surface) {
   if (has_layers(surface.layers)) return encode_layered_shape(surface);
   if (surface.f90 <= 0.0f) return 0u;
@@ -104,7 +105,7 @@ LAMBENT_FN uint encode_albedo_shape(Reflectance surface) {
   return steps.x | (steps.y << 8u) | (steps.z << 16u) | (steps.w << 24u);
 }
 
-/// The gray surface of a shape that is neither 0 nor of layers.
+/// The gray surface that a shape encodes; the shape must not be 0 or that of layers.
 LAMBENT_FN Reflectance gray_of_shape(uint shape) {
   vec4 parts =
       vec4(uvec4(shape & 255u, (shape >> 8u) & 255u, (shape >> 16u) & 255u, shape >> 24u)) *
@@ -114,7 +115,7 @@ LAMBENT_FN Reflectance gray_of_shape(uint shape) {
   return gray;
 }
 
-/// The directional albedo of light at this cosine to the normal, over its mean.
+/// The directional albedo for light at this cosine to the normal, divided by its mean.
 LAMBENT_FN float albedo_towards(uint shape, float n_dot_l) {
   if (shape == 0u) return 1.0f;
   if ((shape >> 24u) == 0u) return layered_albedo_towards(shape, n_dot_l);
@@ -126,14 +127,14 @@ LAMBENT_FN float albedo_towards(uint shape, float n_dot_l) {
   return mean > 0.0f ? effective_albedo(gray, n_dot_l).x / mean : 1.0f;
 }
 
-/// Coats that rays meet reflect light of sources by a lobe that is at least this wide: few rays
-/// find a narrower one, and each of these would be a speck. What is widened keeps its albedo.
-/// Kaplanyan and Dachsbacher, "Path Space Regularization for Holistic and Robust Light Transport",
-/// Computer Graphics Forum 32(2), 2013.
+/// Least GGX width with which hits of rays reflect light of sources: few rays hit a narrower
+/// highlight, and each of these would be a firefly. Widening does not change the albedo. Kaplanyan
+/// and Dachsbacher, "Path Space Regularization for Holistic and Robust Light Transport", Computer
+/// Graphics Forum 32(2), 2013.
 const float kMinAlphaOfHits = 0.25f;
 
-/// Times pi, how much of light that comes in along `to_light` leaves along `to_viewer`, over the
-/// directional albedo towards the viewer: of mean 1 over light from a uniform sky.
+/// Pi times the BRDF, divided by the directional albedo towards the viewer: its mean over light
+/// from a uniform sky is 1.
 LAMBENT_FN float reflected_over_albedo(uint shape, vec3 normal, vec3 to_viewer, vec3 to_light) {
   float n_dot_v = dot(normal, to_viewer);
   float n_dot_l = dot(normal, to_light);

@@ -9,13 +9,14 @@
 
 LAMBENT_BEGIN
 
-/// How a surface point reflects: a Lambert base under a GGX coat that shares one Fresnel term, and
-/// what lies on both.
+/// The reflectance of a surface point: a Lambert base under a GGX coat, both with the same Fresnel
+/// term, and the layers on top of them.
 struct Reflectance {
   vec3 diffuse;  ///< Albedo of the base, 0 to 1: base color * (1 - metallic).
   float alpha;   ///< GGX width, roughness squared; at least kMinGgxAlpha.
   vec3 f0;       ///< Specular reflectance at normal incidence.
-  float f90;     ///< At grazing incidence; 0 with f0 = 0 makes an exact Lambert surface.
+  /// Specular reflectance at grazing incidence; 0 with f0 = 0 is an exact Lambert surface.
+  float f90;
   SurfaceLayers layers;
 };
 
@@ -26,21 +27,20 @@ LAMBENT_FN vec3 fresnel(Reflectance surface, float v_dot_h) {
   return surface.f0 + (vec3(surface.f90) - surface.f0) * m5;
 }
 
-/// The parts of the reflection function times cos(theta_l): of the base and a sheen, and of the
-/// coat and a clearcoat.
+/// BRDF times cos(theta_l) in two parts: base and sheen, coat and clearcoat.
 struct ReflectedPair {
   vec3 diffuse;
   vec3 specular;
 };
 
-/// The same with the clearcoat apart.
+/// BRDF times cos(theta_l) in three parts: base and sheen, coat, clearcoat.
 struct ReflectedLobes {
   vec3 diffuse;
   vec3 specular;
   float clearcoat;
 };
 
-/// BRDF times cosine of what lies under the layers, as if these were not there.
+/// BRDF times cosine of base and coat, without the layers.
 LAMBENT_FN ReflectedPair evaluate_under_layers(Reflectance surface, vec3 to_viewer, vec3 to_light) {
   ReflectedPair result = {vec3(0.0f), vec3(0.0f)};
   float n_dot_v = to_viewer.z;
@@ -109,25 +109,26 @@ LAMBENT_FN vec3 base_albedo(Reflectance surface, float n_dot_v) {
          layered_sheen_albedo(surface.layers, n_dot_v);
 }
 
-/// Whether a surface reflects no light but by its coats.
+/// Whether a surface reflects light only by its coat and clearcoat.
 LAMBENT_FN bool has_no_base(Reflectance surface) {
   return surface.diffuse == vec3(0.0f) && !has_sheen(surface.layers);
 }
 
-/// Whether a surface reflects nothing as a mirror would, not even roughly.
+/// Whether a surface has no specular reflection, neither by a coat nor by a clearcoat.
 LAMBENT_FN bool has_no_coat(Reflectance surface) {
   return surface.f90 <= 0.0f && !has_clearcoat(surface.layers);
 }
 
-/// The clearcoat of a surface, alone, as a coat of its own in the frame of its normal.
+/// The reflectance of a surface's clearcoat alone, as a GGX coat in the frame of the clearcoat's
+/// normal.
 LAMBENT_FN Reflectance clearcoat_alone(SurfaceLayers layers) {
   Reflectance coat = {vec3(0.0f), layers.clearcoat_alpha, vec3(kClearcoatF0 * layers.clearcoat),
                       layers.clearcoat, no_layers()};
   return coat;
 }
 
-/// The share of light that a surface sends back, as if it did so evenly: its Lambert base under the
-/// coat, the coat's own directional albedo, so that metals pass light on, too, and the layers'.
+/// The directional albedo of a surface, which treats all of its reflection as diffuse: its Lambert
+/// base under the coat, the coat itself, so that metals bounce light, too, and the layers.
 LAMBENT_FN vec3 effective_albedo(Reflectance surface, float n_dot_v) {
   if (has_layers(surface.layers)) {
     return base_albedo(surface, n_dot_v) + specular_albedo(surface, n_dot_v) +
@@ -137,8 +138,8 @@ LAMBENT_FN vec3 effective_albedo(Reflectance surface, float n_dot_v) {
   return base_albedo(surface, n_dot_v) + specular_albedo(surface, n_dot_v);
 }
 
-/// Probabilities with which importance sampling should pick the coat and the clearcoat; else it
-/// takes the cosine lobe.
+/// Probabilities with which importance sampling picks the coat and the clearcoat; otherwise it
+/// samples the cosine lobe.
 struct LobeShares {
   float specular;
   float clearcoat;
@@ -153,7 +154,8 @@ LAMBENT_FN LobeShares lobe_shares(Reflectance surface, float n_dot_v) {
     shares.specular = clamp(specular / max(specular + diffuse, 1e-6f), 0.1f, 1.0f);
     return shares;
   }
-  // Each of the coats has at least a quarter of what both have, for lights may be in either alone
+  // Coat and clearcoat each get at least a quarter of their sum, since a light may be in either
+  // lobe alone
   float clearcoat = clearcoat_albedo(surface.layers);
   float coats = specular + clearcoat;
   float both = clamp(coats / max(coats + diffuse, 1e-6f), 0.1f, 1.0f);
@@ -165,7 +167,7 @@ LAMBENT_FN LobeShares lobe_shares(Reflectance surface, float n_dot_v) {
   return shares;
 }
 
-/// The same with coats that have at most this share together.
+/// The same probabilities, with the sum of coat and clearcoat limited to this share.
 LAMBENT_FN LobeShares limited_shares(LobeShares shares, float most) {
   float both = shares.specular + shares.clearcoat;
   if (both <= most) return shares;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: Eisemann and Durand, "Flash Photography Enhancement via Intrinsic Relighting", SIGGRAPH
-// 2004 (cross, or joint, bilateral filter). How much a neighbouring pixel counts in a blur that
-// keeps the edges of the scene.
+// 2004 (cross, or joint, bilateral filter). Weights of neighbouring pixels in a blur that preserves
+// the edges of surfaces.
 #ifndef LAMBENT_SHARED_CROSS_BILATERAL_H
 #define LAMBENT_SHARED_CROSS_BILATERAL_H
 
@@ -9,19 +9,21 @@
 
 LAMBENT_BEGIN
 
-// What tells a pixel's surface from its neighbours', as planes of single numbers: position x, y, z
-// [m]; normal x, y, z, unit, 0 where nothing is seen; one over depth [1/m].
+// The guide: quantities that tell a pixel's surface from its neighbours', as planes of single
+// numbers: position x, y, z [m]; normal x, y, z, unit, 0 where nothing is seen; one over depth
+// [1/m].
 const int kPositionPlane = 0;
 const int kNormalPlane = 3;
 const int kInverseDepthPlane = 6;
 const int kGuidePlanes = 7;
 
-/// Weight, 0 to 1, of a pixel for another one, whose light is relit for that one's normal
-/// (shared/reorient_irradiance.h). `offset` leads from the other one's point to its own;
-/// `inverse_tolerance` is one over the distance [1/m] from the other one's plane at which it counts
-/// for nothing. The plane, not depth alone: a floor seen at a grazing angle is one surface. The
-/// 16th power of the cosine halves the weight at 17 degrees: bumps count, other surfaces do not.
-/// Pixels that see nothing have a normal of 0 and count for nothing.
+/// Weight, 0 to 1, of a neighbour in the filtered light of a pixel, when the light is then adapted
+/// to the pixel's normal (shared/reorient_irradiance.h). `offset` leads from one point to the
+/// other; `inverse_tolerance` is one over the distance [1/m] from the plane of `normal` at which
+/// the weight is 0. The distance from the plane is used, not depth alone, since a floor seen at a
+/// grazing angle is one surface. The 16th power of the cosine halves the weight at 17 degrees,
+/// which includes bumps but excludes other surfaces. Pixels that show no surface have a normal of 0
+/// and no weight.
 LAMBENT_FN float relit_bilateral_weight(vec3 offset, vec3 normal, vec3 other_normal,
                                         float inverse_tolerance) {
   float cosine = max(0.0f, dot(normal, other_normal));
@@ -31,8 +33,8 @@ LAMBENT_FN float relit_bilateral_weight(vec3 offset, vec3 normal, vec3 other_nor
   return (fourth * fourth) * (fourth * fourth) * max(0.0f, 1.0f - beyond * beyond);
 }
 
-/// The same for light that is taken as it is. The 64th power of the cosine halves the weight at 8
-/// degrees: light on bumps differs that much.
+/// The weight when the light is not adapted to the pixel's normal. The 48th power of the cosine
+/// halves the weight at 10 degrees, since light on bumps differs that much.
 LAMBENT_FN float cross_bilateral_weight(vec3 offset, vec3 normal, vec3 other_normal,
                                         float inverse_tolerance) {
   float cosine = max(0.0f, dot(normal, other_normal));

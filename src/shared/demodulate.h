@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light without the colour of the surface that reflects it, and back again.
+// Demodulation: filters see light divided by the albedo of the surface and, for direct light of
+// emitters, by the unoccluded light.
 #ifndef LAMBENT_SHARED_DEMODULATE_H
 #define LAMBENT_SHARED_DEMODULATE_H
 
@@ -7,30 +8,30 @@
 
 LAMBENT_BEGIN
 
-// Albedo by which reflected light is divided, and the filtered light multiplied again, is never
-// less: what darker channels reflect is filtered as it is.
+// Least albedo by which reflected light is divided before filtering, and multiplied again
+// afterwards.
 const float kLeastFilteredAlbedo = 1e-3f;
 
-/// The albedo without which a surface's direct light of emitters is filtered.
+/// The albedo by which a surface's direct light of emitters is divided before filtering.
 LAMBENT_FN vec3 filtered_albedo(Reflectance reflectance) {
   return max(reflectance.diffuse + reflectance.layers.sheen, vec3(kLeastFilteredAlbedo));
 }
 
-// Light that few rays found may be this many times what arrives where nothing is in the way, which
-// is known within a few percent, before that is not believed any more.
+// Largest trusted ratio of light sampled with few rays to the unoccluded light, which is accurate
+// to a few percent. Beyond it, the level follows the sampled light.
 const float kMostOverUnoccluded = 8.0f;
 
 /// The level by which direct light of emitters, without albedo, is divided before it is filtered:
-/// the luminance that arrives where nothing is in the way. What is filtered is then what is not
-/// occluded, and gradients near lights stay as they are. `light`: luminance that was found.
-/// Heitz, Hill and McGuire, "Combining Analytic Direct Illumination and Stochastic Shadows", I3D
-/// 2018, which also filters occluded over unoccluded light.
+/// the unoccluded luminance. The filter then sees the unoccluded share alone, and preserves
+/// gradients near lights. `light` is the sampled luminance. Heitz, Hill and McGuire, "Combining
+/// Analytic Direct Illumination and Stochastic Shadows", I3D 2018, which also filters occluded over
+/// unoccluded light.
 LAMBENT_FN float filtered_level(float unoccluded, float light) {
   return max(unoccluded, light / kMostOverUnoccluded);
 }
 
-// Lower levels are rounding, where a lamp is just above the horizon, and count as no light: one
-// over them may be more than floats hold.
+// Lower levels are rounding errors, where a lamp is just above the horizon, and count as no light:
+// their inverse may overflow.
 const float kLeastFilteredLevel = 1e-30f;
 
 /// One over a level; 0 where there is no light.

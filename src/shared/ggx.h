@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The GGX lobe: its density, how it is drawn, and its directional albedo.
+// The GGX lobe: its density, its sampling, and its directional albedo.
 //
 // Based on: Walter, Marschner, Li and Torrance, "Microfacet Models for Refraction through Rough
 // Surfaces", EGSR 2007; Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018.
@@ -69,11 +69,11 @@ LAMBENT_FN float quintic(vec4 low, vec2 high, float x) {
   return cubic(low, x) + x2 * x2 * (high.x + x * high.y);
 }
 
-// Share of light from a uniform sky that a GGX coat of reflectance 1 reflects once, its directional
-// albedo: a polynomial in the roughness and in t = n_dot_v / (n_dot_v + alpha), fitted to integrals
-// over visible normals (Heitz 2018) for roughness 0.03 to 1 and cosines 0.005 to 1, largest error
-// 0.3 % of it. The share is less than 1 because light that a microfacet sends into another one is
-// lost, as glTF's formulas and the reference have it.
+// Single-scattering directional albedo of a GGX coat of reflectance 1: a polynomial in the
+// roughness and in t = n_dot_v / (n_dot_v + alpha), fitted to integrals over visible normals (Heitz
+// 2018) for roughness 0.03 to 1 and cosines 0.005 to 1, with a largest relative error of 0.3 %. It
+// is less than 1 because light that a microfacet reflects into another one is lost, as in glTF's
+// formulas and in the reference path tracer.
 LAMBENT_FN float ggx_albedo(float n_dot_v, float alpha) {
   float r = sqrt(alpha);
   float t = n_dot_v / (n_dot_v + alpha);
@@ -86,8 +86,9 @@ LAMBENT_FN float ggx_albedo(float n_dot_v, float alpha) {
   return clamp(quintic(vec4(t0, t1, t2, t3), vec2(t4, t5), t), 0.0f, 1.0f);
 }
 
-/// Mean over that light of Schlick's (1 - v_dot_h)^5, fitted likewise, by t = n_dot_v / (n_dot_v +
-/// 2 alpha): the largest error of what a coat of f0 = 0.04 reflects is 0.7 % of it.
+/// Mean of Schlick's (1 - v_dot_h)^5 over the reflected light of a uniform sky: a polynomial in the
+/// roughness, in s = 1 - n_dot_v and in t = n_dot_v / (n_dot_v + 2 alpha), fitted in the same way.
+/// The largest relative error of the albedo of a coat with f0 = 0.04 is 0.7 %.
 LAMBENT_FN float mean_schlick(float n_dot_v, float alpha) {
   float r = sqrt(alpha);
   float s = 1.0f - clamp(n_dot_v, 0.0f, 1.0f);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The common subset of C++20 and GLSL 4.6: the only file that asks which of the two it is in.
+// The common subset of C++20 and GLSL 4.6. No other shared file tests for the language that it is
+// compiled as.
 //
 // Every other header in this folder, and every technique's shared mathematics, is valid in both
 // languages: float literals carry an f, vectors have no swizzles, structs have no defaults.
@@ -18,7 +19,7 @@
 #define LAMBENT_FN inline
 #define LAMBENT_INOUT(T) T&
 #define LAMBENT_OUT(T) T&
-/// Before a float of which each operation must round as written.
+/// Qualifies a float whose operations must each round as written.
 #define LAMBENT_PRECISE const
 /// Before a loop that devices should unroll.
 #define LAMBENT_UNROLL

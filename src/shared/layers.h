@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies on a surface: a sheen, and on that a clearcoat; and the light that these leave to what
-// is under them.
+// The layers of a surface, a sheen and above it a clearcoat, and the light that passes through
+// them.
 //
-// A layer of directional albedo E lets T(v) = 1 - E(v) pass on the way to a viewer at v, and T(l)
-// of light from l. A Lambert base gets
+// A layer of directional albedo E transmits T(v) = 1 - E(v) of the light towards a viewer at v, and
+// T(l) of light from l. Under it, the reflection of a Lambert base is multiplied by
 //   T(v) T(l) / (mean of T)
-// of the light: reciprocal, and over light from everywhere T(v), so that layer and base together
-// reflect all light where the base is white (Kelemen and Szirmay-Kalos, "A Microfacet Based Coupled
-// Specular-Matte BRDF Model with Importance Sampling", 2001). A coat that is itself narrow gets
+// which is reciprocal, and whose mean over light from a uniform sky is T(v), so that layer and base
+// together reflect all light where the base is white (Kelemen and Szirmay-Kalos, "A Microfacet
+// Based Coupled Specular-Matte BRDF Model with Importance Sampling", 2001). The reflection of a GGX
+// coat is multiplied by
 //   min(T(v), T(l)),
-// as KHR_materials_sheen has it: reciprocal, T of a mirror, and never more than T(v).
+// as in KHR_materials_sheen, which is reciprocal, equals T for a mirror, and is never more than
+// T(v).
 #ifndef LAMBENT_SHARED_LAYERS_H
 #define LAMBENT_SHARED_LAYERS_H
 
@@ -18,15 +20,15 @@
 LAMBENT_BEGIN
 
 struct SurfaceLayers {
-  vec3 sheen;              ///< Share of the sheen's lobe, by color, 0 to 1; 0: there is none.
+  vec3 sheen;              ///< Factor on the sheen's lobe, by channel, 0 to 1; 0: no sheen.
   float sheen_roughness;   ///< kMinSheenRoughness to 1.
-  float clearcoat;         ///< Share of the surface that is coated, 0 to 1; 0: there is none.
+  float clearcoat;         ///< Share of the surface that is covered, 0 to 1; 0: no clearcoat.
   float clearcoat_alpha;   ///< GGX width; at least kMinGgxAlpha.
   vec3 clearcoat_normal;   ///< In the frame of the shading normal; unit.
-  float clearcoat_cosine;  ///< Of that normal to the viewer.
+  float clearcoat_cosine;  ///< Cosine of that normal to the viewer.
 };
 
-// KHR_materials_clearcoat: of ior 1.5 at normal incidence.
+// KHR_materials_clearcoat: reflectance of ior 1.5 at normal incidence.
 const float kClearcoatF0 = 0.04f;
 
 LAMBENT_FN SurfaceLayers no_layers() {
@@ -44,7 +46,7 @@ LAMBENT_FN bool has_layers(SurfaceLayers layers) {
   return has_clearcoat(layers) || has_sheen(layers);
 }
 
-/// Reflectance of a full clearcoat where Schlick's (1 - cos)^5 is this.
+/// Reflectance of a full clearcoat, for a value of Schlick's (1 - cos)^5.
 LAMBENT_FN float clearcoat_fresnel(float schlick) {
   return kClearcoatF0 + (1.0f - kClearcoatF0) * schlick;
 }
@@ -54,8 +56,8 @@ LAMBENT_FN float schlick_power(float cosine) {
   return m * m * m * m * m;
 }
 
-/// Share of light that a layer lets pass, by the cosine to its normal; and means of these over
-/// light from a uniform sky.
+/// Transmittance of each layer by the cosine to its normal, and their means over light from a
+/// uniform sky.
 LAMBENT_FN float passes_clearcoat(float clearcoat, float cosine) {
   return 1.0f - clearcoat * clearcoat_fresnel(schlick_power(cosine));
 }
@@ -75,7 +77,7 @@ LAMBENT_FN float mean_passes_sheen(SurfaceLayers layers) {
   return 1.0f - sheen_strength(layers) * mean_sheen_albedo(layers.sheen_roughness);
 }
 
-/// Share of light that passes both layers once, straight on, at this cosine to the normal.
+/// Transmittance of both layers for light that passes them once, at this cosine to the normal.
 LAMBENT_FN float passes_layers(SurfaceLayers layers, float cosine) {
   float share = 1.0f;
   if (has_sheen(layers)) share *= passes_sheen(layers, cosine);
@@ -83,7 +85,7 @@ LAMBENT_FN float passes_layers(SurfaceLayers layers, float cosine) {
   return share;
 }
 
-/// Share of its light that a Lambert surface under the clearcoat reflects. Directions are in the
+/// Factor of the clearcoat on the reflection of a Lambert surface under it. Directions are in the
 /// frame of the shading normal, here and below.
 LAMBENT_FN float even_share_under_clearcoat(SurfaceLayers layers, vec3 to_viewer, vec3 to_light) {
   if (!has_clearcoat(layers)) return 1.0f;
@@ -92,7 +94,7 @@ LAMBENT_FN float even_share_under_clearcoat(SurfaceLayers layers, vec3 to_viewer
          mean_passes_clearcoat(layers);
 }
 
-/// ... and one under both layers.
+/// Factor of both layers on the reflection of a Lambert surface under them.
 LAMBENT_FN float even_share_under_layers(SurfaceLayers layers, vec3 to_viewer, vec3 to_light) {
   float share = even_share_under_clearcoat(layers, to_viewer, to_light);
   if (!has_sheen(layers)) return share;
@@ -100,7 +102,7 @@ LAMBENT_FN float even_share_under_layers(SurfaceLayers layers, vec3 to_viewer, v
          mean_passes_sheen(layers);
 }
 
-/// Share of its light that a coat under both layers reflects.
+/// Factor of both layers on the reflection of a GGX coat under them.
 LAMBENT_FN float coat_share_under_layers(SurfaceLayers layers, vec3 to_viewer, vec3 to_light) {
   float share = 1.0f;
   if (has_sheen(layers)) share = passes_sheen(layers, min(to_viewer.z, to_light.z));
@@ -110,8 +112,8 @@ LAMBENT_FN float coat_share_under_layers(SurfaceLayers layers, vec3 to_viewer, v
   return share * passes_clearcoat(layers, cosine);
 }
 
-/// Mean of the greater of Schlick's powers for v and l over the light from a uniform sky that a GGX
-/// coat reflects: fitted to integrals for roughness 0.03 to 1 and cosines 0.01 to 1, largest error
+/// Mean of max((1 - n_dot_v)^5, (1 - n_dot_l)^5) over the light from a uniform sky that a GGX coat
+/// reflects: fitted to integrals for roughness 0.03 to 1 and cosines 0.01 to 1, largest error
 /// 0.007.
 LAMBENT_FN float mean_greater_schlick(float n_dot_v, float alpha) {
   float r = sqrt(alpha);
@@ -159,8 +161,8 @@ LAMBENT_FN float clearcoat_lobe(SurfaceLayers layers, vec3 to_viewer, vec3 to_li
          (d * g / (4.0f * n_dot_v));
 }
 
-/// A direction of the clearcoat's lobe, which may point below the surface; and the density with
-/// which it is drawn [1/sr].
+/// Samples a direction of the clearcoat's lobe, which may point below the surface; pdf_clearcoat is
+/// its density [1/sr].
 LAMBENT_FN vec3 sample_clearcoat(SurfaceLayers layers, vec3 to_viewer, vec2 u) {
   Frame frame = make_frame(layers.clearcoat_normal);
   vec3 v = to_local(frame, to_viewer);
@@ -172,7 +174,7 @@ LAMBENT_FN float pdf_clearcoat(SurfaceLayers layers, vec3 to_viewer, vec3 to_lig
                             layers.clearcoat_alpha);
 }
 
-/// Shares of light from a uniform sky that the layers reflect themselves.
+/// Directional albedos of the layers themselves.
 LAMBENT_FN float clearcoat_albedo(SurfaceLayers layers) {
   if (!has_clearcoat(layers)) return 0.0f;
   float cosine = max(layers.clearcoat_cosine, 0.0f);

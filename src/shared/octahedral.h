@@ -13,7 +13,7 @@ LAMBENT_FN float sign_not_zero(float value) {
   return value >= 0.0f ? 1.0f : -1.0f;
 }
 
-/// The point of the square [-1, 1]^2 that stands for a direction (need not be unit, must not be
+/// The point of the square [-1, 1]^2 that represents a direction (need not be unit, must not be
 /// zero). The upper half (z >= 0) maps to the inner diamond.
 LAMBENT_FN vec2 octahedral_encode(vec3 direction) {
   float l1_norm = abs(direction.x) + abs(direction.y) + abs(direction.z);
@@ -36,7 +36,7 @@ LAMBENT_FN vec3 octahedral_decode(vec2 p) {
 // Steps of each coordinate of a packed unit vector: 16 bits, less one so that 0 has a code.
 const float kUnitVectorSteps = 65534.0f;
 
-/// A unit vector in a word, 16 bits a coordinate; off by at most 6e-5 rad.
+/// A unit vector in a word, 16 bits per coordinate, with an error of at most 6e-5 rad.
 LAMBENT_FN uint encode_unit_vector(vec3 direction) {
   vec2 p = octahedral_encode(direction);
   uint x = uint((p.x * 0.5f + 0.5f) * kUnitVectorSteps + 0.5f);

@@ -100,12 +100,12 @@ LAMBENT_FN uint encode_rgb9e5(vec3 value, vec3 u) {
   return uint(q.x) | (uint(q.y) << 9u) | (uint(q.z) << 18u) | (uint(exponent) << 27u);
 }
 
-// Two floats in a word: the upper half of each, which keeps 8 bits of the mantissa.
+// Two floats in a word: the upper half of each, with 8 bits of precision.
 const uint kUpperHalf = 0xFFFF0000u;
 const uint kHalfOfLowerHalf = 0x8000u;
 const uint kHalfBits = 16u;
 
-/// Both rounded to nearest; finite.
+/// Packs two finite floats, each rounded to nearest.
 LAMBENT_FN uint pack_upper_halves(float upper, float lower) {
   return ((floatBitsToUint(upper) + kHalfOfLowerHalf) & kUpperHalf) |
          ((floatBitsToUint(lower) + kHalfOfLowerHalf) >> kHalfBits);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The phase function of fog: towards where it scatters light.
+// The phase function of fog: the distribution of scattered light over directions.
 // Based on: Henyey and Greenstein, "Diffuse Radiation in the Galaxy", Astrophysical Journal 93,
 // 1941.
 #ifndef LAMBENT_SHARED_PHASE_H
@@ -20,7 +20,7 @@ LAMBENT_FN float phase(float anisotropy, float cosine) {
 // Anisotropy below which light is scattered evenly: the inverse of the distribution divides by it.
 const float kLeastAnisotropy = 1e-3f;
 
-/// The cosine of the scattering angle, drawn with density phase(), for a uniform number.
+/// The cosine of the scattering angle for a uniform number; its density is phase().
 LAMBENT_FN float sample_phase(float anisotropy, float u) {
   if (abs(anisotropy) < kLeastAnisotropy) return 1.0f - 2.0f * u;
   float ratio = (1.0f - anisotropy * anisotropy) / (1.0f - anisotropy + 2.0f * anisotropy * u);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points of the unit square by which pixels draw their rays.
+// Random numbers for the rays of pixels, as points of the unit square.
 //
-// Those of neighbouring pixels and of following samples cover the square together, so that a
-// filter over either finds all of it: pixels along a Hilbert curve take points of one
-// low-discrepancy sequence in turn. Based on: Roberts, "The Unreasonable Effectiveness of
+// The points of neighbouring pixels, and those of successive samples, cover the square evenly
+// together, which makes filters over either effective: pixels along a Hilbert curve take successive
+// points of one low-discrepancy sequence. Based on: Roberts, "The Unreasonable Effectiveness of
 // Quasirandom Sequences", 2018; Ahmed and Wonka, "Screen-Space Blue-Noise Diffusion of Monte Carlo
 // Sampling Error via Hierarchical Ordering of Pixels", SIGGRAPH Asia 2020.
 #ifndef LAMBENT_SHARED_PIXEL_POINTS_H
@@ -13,9 +13,9 @@
 
 LAMBENT_BEGIN
 
-// Steps of Kronecker sequences, in 2^-32: the inverse powers of the plastic number from point to
-// point, and those of the root of x^5 = x + 1 (Roberts's constant of four dimensions) from sample
-// to sample, which have no relation to these.
+// Steps of Kronecker sequences, in units of 2^-32: from point to point the inverse powers of the
+// plastic number, and from sample to sample those of the root of x^5 = x + 1 (Roberts's constant
+// for four dimensions), which are independent of the former.
 const uint kPlasticBitsX = 3242174889u;
 const uint kPlasticBitsY = 2447445414u;
 const uint kSampleBitsX = 3679390609u;

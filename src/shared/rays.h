@@ -10,13 +10,13 @@ LAMBENT_BEGIN
 /// source does not shadow itself.
 const float kShadowRayShortening = 1e-4f;
 
-/// How far along a ray is just before its hit: what is met up to there is in front of it.
+/// The distance along a ray to just before its hit: any hit up to there is in front of it.
 LAMBENT_FN float before_hit(float distance) {
   return distance * (1.0f - kShadowRayShortening);
 }
 
-/// Coordinates smaller than this [m] are offset by a constant, larger ones by units in the last
-/// place: by this many metres, or by this many units, along the normal.
+/// Coordinates below kRayOffsetOrigin [m] are offset by kRayOffsetFloatScale [m], larger ones by
+/// kRayOffsetIntScale units in the last place, each times the normal's coordinate.
 const float kRayOffsetOrigin = 1.0f / 32.0f;
 const float kRayOffsetFloatScale = 1.0f / 65536.0f;
 const float kRayOffsetIntScale = 256.0f;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Directions and points drawn from unit squares; each with its density.
+// Maps from the unit square to directions and points, each with its density.
 #ifndef LAMBENT_SHARED_SAMPLING_H
 #define LAMBENT_SHARED_SAMPLING_H
 
@@ -78,7 +78,7 @@ LAMBENT_FN vec3 spherical_fibonacci(uint index, uint count) {
   return vec3(radius * cos(kTwoPi * turn), radius * sin(kTwoPi * turn), z);
 }
 
-// Inverse powers of the plastic number, by which the sequence below steps.
+// Inverse powers of the plastic number: the steps of plastic_sequence().
 const float kPlasticStepX = 0.7548776662f;
 const float kPlasticStepY = 0.5698402910f;
 

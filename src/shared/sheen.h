@@ -10,8 +10,9 @@
 
 LAMBENT_BEGIN
 
-// Narrower lobes would reflect more light than arrives at grazing angles. They are taken for lobes
-// of this roughness that reflect as much light in all: see sheen_of_roughness().
+// Least roughness of a sheen lobe: narrower ones would reflect more light than arrives at grazing
+// angles. They are replaced by lobes of this roughness, scaled to the same mean albedo by
+// narrow_sheen_factor().
 const float kMinSheenRoughness = 0.25f;
 
 /// Factor on the colour of a sheen that is narrower than kMinSheenRoughness: the ratio of the mean
@@ -55,9 +56,8 @@ LAMBENT_FN float sheen_lobe(vec3 to_viewer, vec3 to_light, float roughness) {
   return sheen_distribution(n_dot_h, alpha) / (4.0f * to_viewer.z * shadowed);
 }
 
-// Share of light from a uniform sky that a white sheen reflects: integrals for roughness
-// kMinSheenRoughness to 1 in equal steps (rows), and the square root of the cosine to the viewer
-// from 0 to 1.
+// Directional albedo of a white sheen: integrals for roughness kMinSheenRoughness to 1 in equal
+// steps (rows), and the square root of the cosine to the viewer from 0 to 1 (columns).
 const int kSheenRows = 12;
 const int kSheenColumns = 16;
 // clang-format off
@@ -88,8 +88,8 @@ const float kSheenAlbedo[192] = {
     0.5038f, 0.4452f, 0.3891f, 0.3359f, 0.2886f, 0.2451f, 0.2036f, 0.1638f};
 // clang-format on
 
-/// Directional albedo of a white sheen. Read linearly the table is within 0.005 of integrals for
-/// cosines above 0.03; at the edge of the narrowest lobes it is 0.03 off.
+/// Directional albedo of a white sheen. Bilinear interpolation of the table is within 0.005 of the
+/// integrals for cosines above 0.03; at grazing angles of the narrowest lobes the error is 0.03.
 LAMBENT_FN float sheen_albedo(float n_dot_v, float roughness) {
   float column = sqrt(clamp(n_dot_v, 0.0f, 1.0f)) * float(kSheenColumns - 1);
   float row = (clamp(roughness, kMinSheenRoughness, 1.0f) - kMinSheenRoughness) *
@@ -103,7 +103,8 @@ LAMBENT_FN float sheen_albedo(float n_dot_v, float roughness) {
   return mix(narrower, wider, row - float(i));
 }
 
-/// Its mean over light from a uniform sky: a polynomial fitted to the table within 0.0013.
+/// Mean of sheen_albedo over light from a uniform sky: a polynomial fitted to the table within
+/// 0.0013.
 LAMBENT_FN float mean_sheen_albedo(float roughness) {
   return cubic(vec4(0.0405245f, -0.114617f, 0.90714f, -0.532938f), roughness);
 }

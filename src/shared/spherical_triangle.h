@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles on the unit sphere: how much of it they cover, and directions drawn evenly from them.
+// Triangles on the unit sphere: their solid angles, and uniform sampling of directions in them.
 // Based on: Arvo, "Stratified Sampling of Spherical Triangles", SIGGRAPH 1995.
 #ifndef LAMBENT_SHARED_SPHERICAL_TRIANGLE_H
 #define LAMBENT_SHARED_SPHERICAL_TRIANGLE_H
@@ -20,7 +20,7 @@ struct SphericalTriangle {
 /// The triangle between three unit vectors.
 /// Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle", IEEE TBME 30(2), 1983.
 LAMBENT_FN SphericalTriangle spherical_triangle(vec3 a, vec3 b, vec3 c) {
-  // Differences of the corners are exact where these are close together, products are not
+  // Differences of corners that are close together are exact, but products are not
   float volume = abs(dot(a, cross(b - a, c - a)));
   float solid_angle = 2.0f * atan(volume, 1.0f + dot(a, b) + dot(b, c) + dot(c, a));
   SphericalTriangle triangle = {a, b, c, volume, solid_angle};
@@ -50,7 +50,7 @@ LAMBENT_FN vec3 sample_spherical_triangle(SphericalTriangle triangle, vec2 u) {
   vec3 bisector = x * triangle.a + y * triangle.c;
   vec3 end = (2.0f * (x + y * a_dot_c) / squared) * bisector - triangle.a;
 
-  // Differences from 1 are computed as such: between close corners, cosines are 1 but for rounding
+  // Differences from 1 are computed directly, since cosines between close corners round to 1
   vec3 chord = end - triangle.b;
   float whole = 0.5f * dot(chord, chord);
   float part = u.y * whole;

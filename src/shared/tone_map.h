@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From linear radiance to what a display shows.
+// Tone mapping: from linear radiance to display colours.
 // Based on: Hill, "ACES", in: Pettineo and Hill, BakingLab, 2016 (the fitted RRT and ODT); Khronos
 // Group, "Khronos PBR Neutral Tone Mapper", 2024.
 #ifndef LAMBENT_SHARED_TONE_MAP_H
@@ -10,12 +10,11 @@
 LAMBENT_BEGIN
 
 // Which curve tone_map() applies.
-const uint kToneMapLinear = 0u;  ///< None: clipped at 1.
-const uint kToneMapAces = 1u;    ///< Film-like: contrast, shoulder, bright colours bleach.
-const uint kToneMapNeutral =
-    2u;  ///< Keeps base colours up to 0.8 as they are; only highlights bleach.
+const uint kToneMapLinear = 0u;   ///< No curve: clipped at 1.
+const uint kToneMapAces = 1u;     ///< Film-like contrast and shoulder; bright colours desaturate.
+const uint kToneMapNeutral = 2u;  ///< Preserves base colours up to 0.8; only highlights desaturate.
 
-/// Inputs are capped here, far into every shoulder, so that squares of them stay finite.
+/// Inputs are clamped to this, far into every shoulder, so that their squares are finite.
 const float kToneMapMaxInput = 65504.0f;
 
 /// Radiance scaled by 2^stops.
@@ -46,15 +45,15 @@ LAMBENT_FN vec3 tone_map_aces(vec3 linear) {
 /// Fresnel reflectance of ior 1.5 at normal incidence: the offset that dielectrics add to base
 /// colours.
 const float kNeutralFresnel = 0.04f;
-/// Peaks above this (0.8 once the offset is gone) are compressed.
+/// Peaks above this (0.8 less the offset) are compressed.
 const float kNeutralStart = 0.8f - 0.04f;
 /// How fast compressed highlights turn white.
 const float kNeutralDesaturation = 0.15f;
 
 /// Linear Rec. 709 to display-linear Rec. 709. Khronos 2024.
 LAMBENT_FN vec3 tone_map_neutral(vec3 linear) {
-  // Remove the dielectric's reflection; towards black (under 0.08) by a parabola, so that 0 stays
-  // 0.
+  // Subtract the dielectric's reflection; near black (under 0.08), follow a parabola so that 0 maps
+  // to 0.
   float darkest = min(linear.x, min(linear.y, linear.z));
   float toe = darkest - darkest * darkest / (4.0f * kNeutralFresnel);
   float offset = darkest < 2.0f * kNeutralFresnel ? toe : kNeutralFresnel;
@@ -62,14 +61,14 @@ LAMBENT_FN vec3 tone_map_neutral(vec3 linear) {
   float peak = max(color.x, max(color.y, color.z));
   if (peak < kNeutralStart) return color;
 
-  // Compress the peak into [start, 1), then bleach by how much it was compressed.
+  // Compress the peak into [start, 1), then desaturate in proportion to the compression.
   float room = 1.0f - kNeutralStart;
   float new_peak = 1.0f - room * room / (peak + room - kNeutralStart);
   float whiteness = 1.0f - 1.0f / (kNeutralDesaturation * (peak - new_peak) + 1.0f);
   return mix(color * (new_peak / peak), vec3(new_peak), whiteness);
 }
 
-/// Display-linear Rec. 709 in [0, 1] for exposed radiance, by the curve of that number.
+/// Display-linear Rec. 709 in [0, 1] for exposed radiance, by the curve kToneMap...
 LAMBENT_FN vec3 tone_map(vec3 exposed, uint curve) {
   vec3 color = clamp(exposed, vec3(0.0f), vec3(kToneMapMaxInput));
   if (curve == kToneMapAces) color = tone_map_aces(color);

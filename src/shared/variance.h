@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How noisy light is, from the samples that it is made of.
+// Variance of light, from the samples of which it is the sum.
 #ifndef LAMBENT_SHARED_VARIANCE_H
 #define LAMBENT_SHARED_VARIANCE_H
 

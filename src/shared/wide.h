@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of twice a float's precision, for sums and small systems on devices without doubles.
+// Double-float numbers with twice a float's precision, for sums and small linear systems on devices
+// without doubles.
 // Based on: Dekker, "A Floating-Point Technique for Extending the Available Precision", Numerische
 // Mathematik 18, 1971; Knuth, "The Art of Computer Programming", vol. 2, sec. 4.2.2.
 #ifndef LAMBENT_SHARED_WIDE_H
@@ -9,7 +10,7 @@
 
 LAMBENT_BEGIN
 
-/// high + low, where low is what rounding to high lost.
+/// The number high + low, where low is the rounding error of high.
 struct Wide {
   float high;
   float low;
@@ -20,7 +21,7 @@ LAMBENT_FN Wide make_wide(float value) {
   return wide;
 }
 
-/// a + b and what it loses, where |a| >= |b|.
+/// The rounded sum a + b and its rounding error, for |a| >= |b|.
 LAMBENT_FN Wide ordered_sum(float a, float b) {
   LAMBENT_PRECISE float sum = a + b;
   LAMBENT_PRECISE float taken = sum - a;
@@ -29,7 +30,7 @@ LAMBENT_FN Wide ordered_sum(float a, float b) {
   return wide;
 }
 
-/// The same for any two.
+/// The rounded sum a + b and its rounding error, for any a and b.
 LAMBENT_FN Wide exact_sum(float a, float b) {
   LAMBENT_PRECISE float sum = a + b;
   LAMBENT_PRECISE float b_taken = sum - a;
@@ -41,7 +42,7 @@ LAMBENT_FN Wide exact_sum(float a, float b) {
   return wide;
 }
 
-/// A float as the sum of two of half as many bits.
+/// A float as the sum of two with half as many bits.
 LAMBENT_FN Wide split_in_halves(float a) {
   LAMBENT_PRECISE float scaled = 4097.0f * a;  // 2^12 + 1
   LAMBENT_PRECISE float beyond = scaled - a;
@@ -51,7 +52,7 @@ LAMBENT_FN Wide split_in_halves(float a) {
   return halves;
 }
 
-/// a * b and what it loses.
+/// The rounded product a * b and its rounding error.
 LAMBENT_FN Wide exact_product(float a, float b) {
   Wide x = split_in_halves(a);
   Wide y = split_in_halves(b);
@@ -89,7 +90,7 @@ LAMBENT_FN Wide wide_negate(Wide a) {
   return negated;
 }
 
-/// a / b: the quotient of the floats, and what it leaves over once more.
+/// a / b: the quotient of the high parts, plus that of the remainder.
 LAMBENT_FN Wide wide_divide(Wide a, Wide b) {
   LAMBENT_PRECISE float first = a.high / b.high;
   Wide left = wide_add(a, wide_negate(wide_multiply(b, make_wide(first))));

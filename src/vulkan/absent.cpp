@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The public interface where the library is built without Vulkan: every call says so.
+// The public interface where the library is built without Vulkan: every call fails with this cause.
 #include "lambent/vulkan.h"
 
 namespace lambent::vulkan {

@@ -15,7 +15,7 @@ std::size_t align_up(std::size_t bytes, std::size_t alignment) {
   return (bytes + alignment - 1) / alignment * alignment;
 }
 
-/// What one build is told. Holds pointers to itself: `info` is valid until it is moved.
+/// The parameters of one build. `info` points into this object, and so is valid until it is moved.
 struct Build {
   VkAccelerationStructureGeometryKHR geometry{};
   VkAccelerationStructureBuildRangeInfoKHR range{};
@@ -36,7 +36,8 @@ Build build_of_triangles(const Device& device, const TriangleGeometry& triangles
   Build build;
   build.geometry.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR;
   build.geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
-  // Light that passes a surface is multiplied by its share once
+  // Any-hit shaders must run once per hit, as light that passes a surface is multiplied by its
+  // transmittance
   build.geometry.flags = triangles.opaque ? VK_GEOMETRY_OPAQUE_BIT_KHR
                                           : VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR;
   auto& data = build.geometry.geometry.triangles;
@@ -77,7 +78,7 @@ std::shared_ptr<const Buffer> make_storage(const Device& device, std::size_t byt
                                         VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR);
 }
 
-/// Sizes that structures have once they are compacted.
+/// Queries of the sizes of structures after compaction.
 class CompactedSizes {
  public:
   CompactedSizes(const Device& device, std::uint32_t count) : device_(device), count_(count) {
@@ -113,7 +114,7 @@ class CompactedSizes {
   VkQueryPool pool_ = VK_NULL_HANDLE;
 };
 
-/// Structures of these sizes in storage that they share.
+/// Creates structures of these sizes in shared storage.
 std::vector<AccelerationStructure> make_together(const Device& device,
                                                  std::span<const VkDeviceSize> sizes,
                                                  const char* name) {
@@ -130,7 +131,7 @@ std::vector<AccelerationStructure> make_together(const Device& device,
   return structures;
 }
 
-/// Moves those structures that allow it to where they take no more memory than they need.
+/// Copies the structures `which` to storage of their compacted size.
 void compact(const Device& device, std::span<const std::size_t> which,
              std::vector<AccelerationStructure>& structures) {
   if (which.empty()) return;
@@ -219,12 +220,12 @@ std::vector<AccelerationStructure> TriangleBuilder::build(
   std::vector<AccelerationStructure> built;
   built.reserve(geometries.size());
   while (built.size() < geometries.size()) build_group(geometries.subspan(built.size()), built);
-  // What only a first build needs that much of is not kept
+  // Free the scratch memory, since later refits need much less
   scratch_ = {};
   return built;
 }
 
-/// Builds as many as go together well.
+/// Builds one group of structures.
 void TriangleBuilder::build_group(std::span<const TriangleGeometry> geometries,
                                   std::vector<AccelerationStructure>& built) {
   const std::size_t alignment = device_->limits().acceleration_scratch_alignment;
@@ -241,7 +242,7 @@ void TriangleBuilder::build_group(std::span<const TriangleGeometry> geometries,
     builds.push_back(build);
   }
 
-  // Those that will be compacted lie apart from those that stay where they are
+  // Structures that will be compacted are stored separately from the others
   std::vector<AccelerationStructure> to_compact, to_keep;
   if (!passing.empty()) to_compact = make_together(*device_, passing, "structures to be compacted");
   if (!lasting.empty()) to_keep = make_together(*device_, lasting, "acceleration structures");
@@ -289,7 +290,7 @@ void TriangleBuilder::fit(Recorder& recorder, std::span<const Deformed> deformed
 void InstanceStructure::build(Recorder& recorder, std::span<const PlacedStructure> instances) {
   const auto count = static_cast<std::uint32_t>(instances.size());
   const bool grow = capacity_ < count || structure_.handle() == VK_NULL_HANDLE;
-  // Half as many again, so that a list that grows frame by frame is not moved each time
+  // Grow by half, so that a list that grows frame by frame is not reallocated each time
   if (grow) capacity_ = std::max(count, capacity_ + capacity_ / 2);
 
   std::vector<Build> builds(1);

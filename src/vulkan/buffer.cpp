@@ -12,16 +12,16 @@
 namespace lambent::vulkan {
 namespace {
 
-// A buffer of no bytes would have no address.
+// An empty buffer would have no address.
 constexpr std::size_t kLeastBytes = 16;
-// Uploads up to this size go where the device reads fast, if the host can write there: of such
-// memory there may be little.
+// Upload buffers up to this size are in device-local memory, if the host can write there: such
+// memory may be scarce.
 constexpr std::size_t kMaxNearBytes = 1 << 20;
-// Fills and copies go by words.
+// Fills and copies are in multiples of this [bytes].
 constexpr std::size_t kWord = 4;
 
-/// The memory type of a kind, among those a buffer can have: wished-for properties first, then what
-/// must be.
+/// The memory type for a buffer, among the allowed `types`: one with all preferred properties,
+/// otherwise one with the required ones.
 std::uint32_t memory_type(const Device& device, std::uint32_t types, Memory memory,
                           std::size_t bytes) {
   VkMemoryPropertyFlags needed = 0, wished = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
@@ -29,7 +29,7 @@ std::uint32_t memory_type(const Device& device, std::uint32_t types, Memory memo
     needed = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     wished = needed;
     if (memory == Memory::readback) wished |= VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-    // Small things that kernels read again and again
+    // Prefer device-local memory for small buffers, which kernels read repeatedly
     if (memory == Memory::upload && bytes <= kMaxNearBytes) {
       wished |= VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
     }

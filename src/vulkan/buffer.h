@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory on a device, reached by shaders through its address.
+// Buffers on a device, which shaders access by address.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace lambent::vulkan {
 
 class Device;
 
-/// Where a buffer's memory is.
+/// The kind of memory that a buffer uses.
 enum class Memory {
   device,    ///< Fast for the device; the host cannot see it.
   upload,    ///< Written by the host, read by the device.
@@ -25,27 +25,26 @@ enum class Memory {
 class Buffer {
  public:
   Buffer() = default;
-  /// Throws std::runtime_error where memory runs out. `bytes` may be 0: the buffer is then as small
-  /// as can be, so that its address is one. Zeroed where the host sees it, else undefined.
-  /// `alignment` of the address; a power of two.
+  /// Throws std::runtime_error where memory runs out. `bytes` may be 0: the buffer then has a
+  /// minimum size, so that its address is valid. Zeroed where the host can access it, else
+  /// undefined. `alignment` of the address; a power of two.
   Buffer(const Device& device, std::size_t bytes, Memory memory, const std::string& name,
          std::size_t alignment = 16, VkBufferUsageFlags further_usage = 0);
   ~Buffer();
   Buffer(Buffer&& other) noexcept;
   Buffer& operator=(Buffer&& other) noexcept;
 
-  /// Makes it a buffer of Memory::device of at least so many bytes. What it held is lost where it
-  /// grows.
+  /// Makes it a buffer of Memory::device of at least `bytes`. Its contents are lost if it grows.
   void reserve(const Device& device, std::size_t bytes, const std::string& name);
 
   VkBuffer handle() const { return buffer_; }
   VkDeviceAddress address() const { return address_; }
-  /// Of `handle()`, where the aligned address begins.
+  /// Offset in `handle()` at which the aligned address begins.
   VkDeviceSize offset() const { return offset_; }
   std::size_t bytes() const { return bytes_; }
   bool empty() const { return bytes_ == 0; }
 
-  /// What the host sees; null for Memory::device.
+  /// The mapped memory; null for Memory::device.
   std::byte* host() const { return host_; }
   template <class T>
   std::span<T> as() const {
@@ -64,7 +63,7 @@ class Buffer {
   std::byte* host_ = nullptr;
 };
 
-/// Makes a device buffer that holds this. Waits for the copy.
+/// Creates a device buffer with this content. Waits for the copy.
 Buffer upload_bytes(const Device& device, std::span<const std::byte> data, const std::string& name,
                     VkBufferUsageFlags further_usage = 0);
 /// Copies into a buffer that is large enough, from `offset` bytes on. Waits for the copy.

@@ -15,7 +15,7 @@ void check(VkResult result, const char* call) {
   throw std::runtime_error(std::string(call) + " failed (VkResult " + std::to_string(result) + ")");
 }
 
-/// What the validation layer says, from whichever thread.
+/// Messages of the validation layer, from any thread.
 struct Device::Messages {
   mutable std::mutex mutex;
   std::vector<std::string> texts;
@@ -31,7 +31,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL keep_message(VkDebugUtilsMessageSeverityFlagBitsE
   return VK_FALSE;
 }
 
-/// The device that a request means, among all: its index. Fails telling what each lacks.
+/// The index of the device that a request selects. Fails with what each device lacks.
 Expected<std::size_t> choose(const DeviceRequest& request,
                              const std::vector<DeviceDescription>& found) {
   if (found.empty())
@@ -227,7 +227,8 @@ void* Device::keep(std::type_index type, const std::function<std::shared_ptr<voi
     const auto found = kept_.find(type);
     if (found != kept_.end()) return found->second.get();
   }
-  // Making one may ask for another; of two made at once the first stays
+  // Its constructor may request another object, so it runs without the lock; of two created
+  // concurrently, the first is kept
   std::shared_ptr<void> made = make();
   const std::lock_guard lock(keeping_);
   return kept_.try_emplace(type, std::move(made)).first->second.get();
@@ -272,7 +273,7 @@ void Device::run(const std::function<void(Recorder&)>& record) const {
   check(f.vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
   Recorder recorder(*this, commands);
   record(recorder);
-  // What was written last is for the host to read
+  // Make the last writes visible to the host
   recorder.barrier();
   check(f.vkEndCommandBuffer(commands), "vkEndCommandBuffer");
   VkSubmitInfo submit{};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An instance, a device and its queue: opened by us or lent by an engine. Knows no technique.
+// An instance, a device and its queue: opened by Lambent or lent by an engine. Independent of
+// techniques.
 #pragma once
 
 #include <cstdint>
@@ -14,28 +15,28 @@
 #include "lambent/vulkan.h"
 #include "vulkan/functions.h"
 
-// After Vulkan's headers without prototypes
+// Must follow Vulkan's headers without prototypes
 #include "lambent/vulkan_device.h"
 
 namespace lambent::vulkan {
 
 class Recorder;
 
-/// Throws std::runtime_error that names the call, where a call that only a broken or exhausted
-/// device fails did fail.
+/// Throws a std::runtime_error that names the call if `result` is an error. For calls that fail
+/// only on broken or exhausted devices.
 void check(VkResult result, const char* call);
 
-/// Numbers that passes adapt to.
+/// Limits of the device to which passes adapt.
 struct DeviceLimits {
   std::uint32_t shader_group_handle_bytes = 0;
   std::uint32_t shader_group_handle_alignment = 0;
   std::uint32_t shader_group_base_alignment = 0;
   std::uint32_t acceleration_scratch_alignment = 0;
   std::uint32_t max_sampled_images = 0;  ///< In one descriptor array.
-  std::uint32_t max_image_extent = 0;    ///< Texels an image is wide or high.
-  std::uint32_t max_groups = 0;          ///< Of a dispatch, along its first or second axis.
-  std::uint64_t timestamp_mask = 0;      ///< Of the bits that count.
-  float timestamp_period_ns = 0.0f;      ///< 0: the queue has no timestamps.
+  std::uint32_t max_image_extent = 0;    ///< Largest width or height of an image [texels].
+  std::uint32_t max_groups = 0;      ///< Largest number of groups along the first or second axis.
+  std::uint64_t timestamp_mask = 0;  ///< Mask of the valid bits.
+  float timestamp_period_ns = 0.0f;  ///< 0: the queue has no timestamps.
 };
 
 class Device : public std::enable_shared_from_this<Device> {
@@ -57,18 +58,19 @@ class Device : public std::enable_shared_from_this<Device> {
   VkPipelineLayout pipeline_layout() const { return pipeline_layout_; }
   VkDescriptorSetLayout texture_set_layout() const { return texture_set_layout_; }
 
-  /// Has `record` fill a command buffer, submits it and waits. One at a time; others wait.
+  /// Lets `record` fill a command buffer, submits it and waits. Concurrent calls run one after the
+  /// other.
   void run(const std::function<void(Recorder&)>& record) const;
 
-  /// The one object of this class that lives with the device, made at the first call as T(device):
-  /// for kernels, which take long to compile, and memory that passes use again.
+  /// The device's only object of class T, created at the first call as T(device) and destroyed with
+  /// the device: for kernels, which take long to compile, and memory that passes reuse.
   template <class T>
   T& kept() const {
     return *static_cast<T*>(
         keep(typeid(T), [this] { return std::shared_ptr<void>(std::make_shared<T>(*this)); }));
   }
 
-  /// Gives an object its name for debuggers, where they listen.
+  /// Sets the name of an object for debuggers, if VK_EXT_debug_utils is on.
   void name(VkObjectType type, std::uint64_t object, const std::string& name) const;
 
   std::vector<std::string> messages() const;
@@ -91,7 +93,7 @@ class Device : public std::enable_shared_from_this<Device> {
   bool owned_ = false;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   std::unique_ptr<Messages> messages_;
-  std::function<void(const char*)> keep_;  // a message of the validation layer
+  std::function<void(const char*)> keep_;  // stores a message of the validation layer
   DeviceDescription description_;
   DeviceLimits limits_;
   VkPhysicalDeviceMemoryProperties memory_{};
@@ -104,10 +106,10 @@ class Device : public std::enable_shared_from_this<Device> {
   mutable std::unordered_map<std::type_index, std::shared_ptr<void>> kept_;
 };
 
-/// Push constants a pipeline can take: what every device has.
+/// Bytes of push constants, which every device supports.
 inline constexpr std::uint32_t kMaxArgumentBytes = 128;
 
-/// Textures and samplers that a scene's descriptor set can hold, and where they are bound.
+/// Capacity of a scene's descriptor set, and the binding of its textures.
 inline constexpr std::uint32_t kMaxTextures = 4096;
 inline constexpr std::uint32_t kMaxSamplers = 9;
 inline constexpr std::uint32_t kTextureBinding = 0;

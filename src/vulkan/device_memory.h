@@ -13,7 +13,7 @@
 
 namespace lambent {
 
-/// Makes a buffer in host memory that the device reads there: for data that is used once.
+/// Creates a buffer in host memory from which the device reads, for data that is used once.
 template <class T>
 vulkan::Buffer host_buffer(const vulkan::Device& device, std::span<const T> data,
                            const std::string& name) {
@@ -29,7 +29,7 @@ void reserve(const vulkan::Device& device, std::size_t count, const std::string&
   buffer.reserve(device, count * sizeof(T), name);
 }
 
-/// The bytes of some buffers in all.
+/// Sum of the sizes of buffers [bytes].
 inline std::size_t bytes_of(std::initializer_list<const vulkan::Buffer*> buffers) {
   std::size_t bytes = 0;
   for (const vulkan::Buffer* buffer : buffers) bytes += buffer->bytes();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of Vulkan that are used, found at run time.
+// The Vulkan functions that Lambent uses, loaded at run time.
 #pragma once
 
 #include "vulkan/api.h"
@@ -91,7 +91,7 @@ namespace lambent::vulkan {
   X(vkUpdateDescriptorSets)                        \
   X(vkWaitForFences)
 
-// Of VK_EXT_debug_utils: null where it is not on.
+// Functions of VK_EXT_debug_utils; null where it is not on.
 #define LAMBENT_VULKAN_DEBUG_FUNCTIONS(X) \
   X(vkCmdBeginDebugUtilsLabelEXT)         \
   X(vkCmdEndDebugUtilsLabelEXT)           \
@@ -109,12 +109,12 @@ struct Functions {
 #undef LAMBENT_VULKAN_MEMBER
 };
 
-/// The entry of the system's Vulkan loader; null where there is none. Stays loaded for ever, as
-/// drivers do not bear being unloaded.
+/// The entry point of the system's Vulkan loader; null where there is none. It is never unloaded,
+/// since drivers do not support that.
 PFN_vkGetInstanceProcAddr find_loader();
 
-/// Fill in what can be had so far: with no instance, with one, and with a device. False where one
-/// that is needed is missing.
+/// Load the functions that are available without an instance, with one, and with a device. Return
+/// false where a required one is missing.
 bool load_global_functions(Functions& functions);
 bool load_instance_functions(VkInstance instance, Functions& functions);
 bool load_device_functions(VkInstance instance, VkDevice device, Functions& functions);

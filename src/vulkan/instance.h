@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be asked before a device is open.
+// Instances, and queries of devices that are not open.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace lambent::vulkan {
 
-/// An instance of our own. Destroyed with this object.
+/// An instance that Lambent creates, destroyed with this object.
 class Instance {
  public:
   /// Fails where there is no loader, no driver of Vulkan 1.2, or, with `validation`, no such layer.
@@ -34,13 +34,13 @@ class Instance {
 };
 
 bool has_extension(const Functions& functions, VkPhysicalDevice device, const char* name);
-/// The first queue family that takes compute work.
+/// The first queue family that supports compute.
 std::optional<std::uint32_t> compute_queue_family(const Functions& functions,
                                                   VkPhysicalDevice device);
-/// Bits of a queue family's timestamps that count; 0: it has none.
+/// Number of valid bits of a queue family's timestamps; 0: it has none.
 std::uint32_t timestamp_bits(const Functions& functions, VkPhysicalDevice device,
                              std::uint32_t family);
-/// What a device is, and what it lacks.
+/// The description of a device, including what it lacks.
 DeviceDescription describe(const Functions& functions, VkPhysicalDevice device);
 
 }  // namespace lambent::vulkan

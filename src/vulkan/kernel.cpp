@@ -12,7 +12,7 @@
 namespace lambent::vulkan {
 namespace {
 
-/// A shader module for as long as a pipeline is being made.
+/// A shader module, which exists while a pipeline is created.
 class Module {
  public:
   Module(const Device& device, Spirv spirv) : device_(device) {
@@ -41,7 +41,7 @@ class Module {
   VkShaderModule module_ = VK_NULL_HANDLE;
 };
 
-/// Throws where a shader asks for more than every pipeline of ours is given.
+/// Throws where a shader needs more than pipeline_layout() provides.
 void check_interface(const Reflection& shader, const std::string& name) {
   if (shader.argument_bytes > kMaxArgumentBytes) {
     throw std::runtime_error("shader " + name + " takes too many arguments");
@@ -113,7 +113,7 @@ RayKernel::RayKernel(const Device& device, const RayShaders& shaders, const std:
   check_interface(shader, name);
   argument_bytes_ = shader.argument_bytes;
 
-  // Stages and groups: generation, miss, and one of hits
+  // Stages and groups: ray generation, miss, and one hit group
   const Module generation(device, shaders.generation), miss(device, shaders.miss);
   std::vector<VkPipelineShaderStageCreateInfo> stages = {
       generation.stage(VK_SHADER_STAGE_RAYGEN_BIT_KHR), miss.stage(VK_SHADER_STAGE_MISS_BIT_KHR)};
@@ -150,7 +150,7 @@ RayKernel::RayKernel(const Device& device, const RayShaders& shaders, const std:
         "vkCreateRayTracingPipelinesKHR");
   device.name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline_), name);
 
-  // The table: one record a group, each where a table may begin
+  // The shader binding table: one record per group, each aligned as the base of a table
   const DeviceLimits& limits = device.limits();
   const std::uint32_t bytes = limits.shader_group_handle_bytes;
   const std::uint32_t stride = round_up(round_up(bytes, limits.shader_group_handle_alignment),

@@ -14,7 +14,7 @@ namespace lambent::vulkan {
 /// A compiled shader, embedded in the library.
 using Spirv = std::span<const std::uint32_t>;
 
-/// Value of a specialisation constant.
+/// The value of a specialisation constant.
 struct Constant {
   std::uint32_t id;
   std::uint32_t value;
@@ -48,7 +48,7 @@ class Kernel {
 /// group. Closest and any hit may be empty.
 struct RayShaders {
   Spirv generation, miss, closest_hit, any_hit;
-  /// The hit group is that of all instances, whatever record of a table they name.
+  /// All instances use the hit group, whatever shader binding table offset they have.
   bool any_record = false;
 };
 

@@ -10,10 +10,10 @@ namespace {
 
 constexpr double kMsPerNs = 1e-6;
 
-// Rays in a row of a launch: all devices take so many.
+// Rays in a row of a launch, which all devices support.
 constexpr std::uint32_t kLaunchWidth = 1u << 20;
 
-/// Whether a struct of so many bytes is what a shader reads: C++ may pad its end.
+/// Whether the size of a struct matches what a shader reads; C++ may pad its end.
 [[maybe_unused]] bool fits(std::uint32_t bytes, std::uint32_t read_by_shader) {
   return bytes >= read_by_shader && bytes - read_by_shader < alignof(std::uint64_t);
 }

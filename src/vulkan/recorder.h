@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records passes into a command buffer: ours, or an engine's.
+// Records passes into a command buffer, of Lambent's or of an engine's.
 #pragma once
 
 #include <cassert>
@@ -12,7 +12,7 @@
 
 namespace lambent::vulkan {
 
-/// Time that a pass took on the device.
+/// Time of a pass on the device.
 struct DevicePassTime {
   std::string name;
   double ms = 0.0;
@@ -21,16 +21,16 @@ struct DevicePassTime {
 /// Timestamps around the passes of one command buffer.
 class Timestamps {
  public:
-  /// For so many passes.
+  /// `passes` is the maximum number of passes.
   Timestamps(const Device& device, std::uint32_t passes);
   ~Timestamps();
   Timestamps(const Timestamps&) = delete;
   Timestamps& operator=(const Timestamps&) = delete;
 
-  /// After the command buffer has finished: what each pass took, in the order of recording; passes
-  /// of one name are added up. None where the device has no timestamps.
+  /// The time of each pass, in the order of recording; those of the same name are summed. The
+  /// command buffer must have finished. None where the device has no timestamps.
   std::vector<DevicePassTime> read() const;
-  /// The same without waiting; none where the command buffer has not finished.
+  /// The times as of read(); none if the command buffer has not finished.
   std::vector<DevicePassTime> read_if_finished() const;
 
  private:
@@ -45,36 +45,37 @@ class Timestamps {
 
 class Recorder {
  public:
-  /// Into a command buffer that is being recorded. `timestamps`: null or empty ones, which must
-  /// outlive the command buffer's execution.
+  /// Records into a command buffer that is being recorded. `timestamps` are null or unused ones,
+  /// which must outlive the command buffer's execution.
   Recorder(const Device& device, VkCommandBuffer commands, Timestamps* timestamps = nullptr);
 
-  /// Begins and ends a pass: its name is its debug label, and its time is taken.
+  /// Begin and end a pass, which gets a debug label and is timed.
   void begin_pass(const std::string& name);
   void end_pass();
 
-  /// Runs a kernel over a grid of so many invocations; those beyond in the last groups must do
-  /// nothing. Textures as last bound.
+  /// Runs a kernel over a grid of x * y * z invocations; further ones in the last groups must do
+  /// nothing. The textures are those bound last.
   template <class Arguments>
   void run(const Kernel& kernel, const Arguments& arguments, std::uint32_t x, std::uint32_t y = 1,
            std::uint32_t z = 1) {
     static_assert(sizeof(Arguments) <= 128);
     dispatch(kernel, &arguments, sizeof(Arguments), x, y, z);
   }
-  /// The same over a number of groups that the device wrote: three words.
+  /// Runs a kernel over a number of groups that the device wrote to `groups`: three words.
   template <class Arguments>
   void run_indirect(const Kernel& kernel, const Arguments& arguments, const Buffer& groups,
                     std::size_t offset = 0) {
     static_assert(sizeof(Arguments) <= 128);
     dispatch_indirect(kernel, &arguments, sizeof(Arguments), groups, offset);
   }
-  /// Runs a ray generation shader so many times or more, in rows; those beyond must do nothing.
+  /// Runs a ray generation shader at least `count` times, in rows; invocations beyond must do
+  /// nothing.
   template <class Arguments>
   void trace(const RayKernel& kernel, const Arguments& arguments, std::uint32_t count) {
     static_assert(sizeof(Arguments) <= 128);
     trace_rays(kernel, &arguments, sizeof(Arguments), count);
   }
-  /// The same for a width, height and depth that the device wrote.
+  /// Runs a ray generation shader for a width, height and depth that the device wrote to `size`.
   template <class Arguments>
   void trace_indirect(const RayKernel& kernel, const Arguments& arguments, const Buffer& size,
                       std::size_t offset = 0) {
@@ -82,10 +83,10 @@ class Recorder {
     trace_rays_indirect(kernel, &arguments, sizeof(Arguments), size, offset);
   }
 
-  /// Has everything recorded later see what was written before.
+  /// Makes all earlier writes visible to everything recorded later.
   void barrier();
 
-  /// Textures for the kernels that follow.
+  /// Binds the textures of the kernels that follow.
   void bind_textures(VkDescriptorSet textures);
 
   void copy(const Buffer& from, const Buffer& to, std::size_t bytes, std::size_t from_offset = 0,
@@ -114,7 +115,7 @@ class Recorder {
   const Device& device_;
   VkCommandBuffer commands_;
   Timestamps* timestamps_;
-  bool timing_ = false;  // the pass that is open
+  bool timing_ = false;  // whether the open pass is timed
 };
 
 }  // namespace lambent::vulkan

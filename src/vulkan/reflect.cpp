@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The few instructions of SPIR-V that tell of a shader's interface; numbers from the Khronos
+// The SPIR-V instructions that describe a shader's interface; numbers from the Khronos
 // specification "SPIR-V 1.6", sec. 3.
 #include "vulkan/reflect.h"
 
@@ -34,7 +34,7 @@ constexpr std::uint32_t kArrayStride = 6, kBinding = 33, kDescriptorSet = 34,
 constexpr std::uint32_t kPushConstant = 9;  // storage class
 constexpr std::uint32_t kAddressBytes = 8;
 
-/// A type, as far as it takes to know its size.
+/// The parts of a type from which its size follows.
 struct Type {
   Op op;
   std::vector<std::uint32_t> operands;
@@ -63,7 +63,7 @@ class Module {
       const std::uint32_t pointee = types_.at(storage.type).operands[1];
       if (storage.storage_class == kPushConstant) {
         found.argument_bytes = bytes(pointee);
-        // Arguments are one struct in the block
+        // Arguments are a single struct in the block
         const Type& block = types_.at(pointee);
         const std::uint32_t first = block.operands.empty() ? pointee : block.operands[0];
         const bool wrapped = block.operands.size() == 1 && types_.at(first).op == kTypeStruct;

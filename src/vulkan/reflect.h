@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a shader says of itself.
+// Reflection of a shader's interface from its SPIR-V.
 #pragma once
 
 #include <array>
@@ -16,10 +16,10 @@ struct ReflectedBinding {
 };
 
 struct Reflection {
-  std::array<std::uint32_t, 3> group_size = {1, 1, 1};  ///< Of a compute shader.
-  std::uint32_t argument_bytes = 0;                     ///< Of its push constants.
-  /// Byte offset of each member of the struct of arguments: the first member of the block, where
-  /// that is one.
+  std::array<std::uint32_t, 3> group_size = {1, 1, 1};  ///< Workgroup size of a compute shader.
+  std::uint32_t argument_bytes = 0;                     ///< Size of its push constants.
+  /// Byte offset of each member of the struct of arguments, which is the first member of the block
+  /// if that is a struct.
   std::vector<std::uint32_t> argument_offsets;
   std::vector<ReflectedBinding> bindings;
 };

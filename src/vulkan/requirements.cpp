@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What passes need of a device, and which devices have it.
+// The requirements of passes on a device, and which devices meet them.
 #include <algorithm>
 #include <cstring>
 #include <string_view>
@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::uint32_t kRequiredApi = VK_API_VERSION_1_2;
 
-// Lanes that matrix products share what they load among.
+// Least number of lanes in a subgroup, which matrix products use to share loads.
 constexpr std::uint32_t kLeastSubgroup = 8;
-// Of the largest workgroups.
+// Least supported size of a workgroup.
 constexpr std::uint32_t kLeastGroup = 256;
 
 /// Calls visit(name, flag) for each feature that passes need.
@@ -112,7 +112,7 @@ DeviceDescription describe(const Functions& f, VkPhysicalDevice device) {
   description.api_major = VK_API_VERSION_MAJOR(api);
   description.api_minor = VK_API_VERSION_MINOR(api);
   description.software = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-  // Devices of another version may not know the structures that are asked below
+  // Devices of a lower version may not know the structures that are queried below
   if (api < kRequiredApi) {
     description.missing.emplace_back("Vulkan 1.2");
     return description;

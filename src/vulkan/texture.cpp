@@ -87,7 +87,7 @@ void Texture::allocate(const VkImageCreateInfo& info) {
 }
 
 void Texture::copy(std::span<const TexelLevel> levels) const {
-  // Gather the levels in memory that the host sees
+  // Copy the levels to memory that the host can access
   std::size_t bytes = 0;
   for (const TexelLevel& level : levels) bytes += level.rgba.size();
   const Buffer staging(*device_, bytes, Memory::upload, "texture upload");

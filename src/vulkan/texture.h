@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures with MIPs, and the descriptor set that holds all of them.
+// Textures with MIP levels, and the descriptor set of all textures.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ class Texture {
   Texture() = default;
   /// Full size first, each level half of the one before, at least one; waits for the copy. `srgb`:
   /// colours are decoded when they are read. Throws std::runtime_error where memory runs out or the
-  /// device takes no image so large.
+  /// image is too large for the device.
   Texture(const Device& device, std::span<const TexelLevel> levels, bool srgb,
           const std::string& name);
   ~Texture();
@@ -49,7 +49,7 @@ class Texture {
   std::size_t bytes_ = 0;
 };
 
-/// How a texture is continued beyond its edges.
+/// The address modes beyond a texture's edges.
 inline constexpr std::uint32_t kAddressModes = 3;
 inline constexpr VkSamplerAddressMode kAddressMode[kAddressModes] = {
     VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT,
@@ -66,8 +66,8 @@ class TextureSet {
   TextureSet& operator=(const TextureSet&) = delete;
 
   /// Binds a texture at an index; it must live as long as kernels may read it there. Not to be
-  /// called while the device works with the set. Throws std::runtime_error where the device takes
-  /// no more textures.
+  /// called while the device uses the set. Throws std::runtime_error where the device supports no
+  /// more textures.
   void set(std::uint32_t index, const Texture& texture);
 
   VkDescriptorSet handle() const { return set_; }

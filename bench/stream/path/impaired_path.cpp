@@ -24,13 +24,13 @@ struct Travelling {
   std::vector<char> bytes;
 };
 
-/// From one device to the other.
+/// The path from one device to the other.
 struct Direction {
   int from, to;
   PathModel model;
   std::deque<Travelling> travelling{};
 
-  /// Takes what was sent since.
+  /// Reads the packets that were sent since the last call.
   void take(std::atomic<std::uint64_t>& sent, std::atomic<std::uint64_t>& lost) {
     std::array<char, kMaxPacketBytes> packet;
     for (;;) {
@@ -45,12 +45,12 @@ struct Direction {
       }
     }
   }
-  /// Delivers what arrives.
+  /// Writes the packets that are due.
   void deliver() {
     const Clock::time_point now = Clock::now();
     while (!travelling.empty() && travelling.front().arrives <= now) {
       const std::vector<char>& bytes = travelling.front().bytes;
-      // What the system has no room for is lost, as elsewhere
+      // Packets for which the system has no room are lost, as on real paths
       static_cast<void>(!::write(to, bytes.data(), bytes.size()));
       travelling.pop_front();
     }

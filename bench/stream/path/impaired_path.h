@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two networks of this machine's own, joined by a path that loses and delays packets. The system's
-// own TCP runs at both ends: what is lost is sent again, windows shrink and grow as on long paths.
+// Two virtual networks on this machine, connected by a path that loses and delays packets. The
+// system's own TCP runs at both ends, with retransmission and congestion control as on long paths.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace lambent::stream_path {
 
-/// A network namespace. Whoever enters one has the sockets that it opens from then on there.
+/// A network namespace. Sockets that a thread opens after entering it belong to it.
 class Network {
  public:
   /// Throws std::runtime_error where that is not allowed, or TUN devices are missing.
@@ -18,10 +18,10 @@ class Network {
   ~Network();
   Network(const Network&) = delete;
   Network& operator=(const Network&) = delete;
-  /// The calling thread, and processes that it starts.
+  /// Enters the namespace with the calling thread, and with processes that it starts.
   void enter() const;
-  /// A device with this address out of a network of four, whose packets are read from and written
-  /// to what is returned.
+  /// Creates a TUN device with this address in a network of four addresses. Returns a descriptor
+  /// from which its packets are read and to which they are written.
   int open_device(const std::string& address) const;
 
  private:
@@ -30,13 +30,14 @@ class Network {
 
 class ImpairedPath {
  public:
-  /// Both directions are so. Congestion control of both ends ("cubic", "bbr"); empty: the system's.
+  /// `settings` are those of both directions. `congestion` is the congestion control of both ends
+  /// ("cubic", "bbr"); empty: the system's.
   ImpairedPath(const PathSettings& settings, const std::string& congestion);
   ~ImpairedPath();
 
   const Network& near() const;
   const Network& far() const;
-  /// The addresses of the two.
+  /// The addresses of the two networks.
   static constexpr const char* kNear = "10.99.0.1";
   static constexpr const char* kFar = "10.99.0.2";
   struct Counts {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// lambent_stream_path: how old light is when clients have it, and how long they take to join, over
-// a path that delays and loses packets. Prints the tables of docs/serve.md.
+// lambent_stream_path: the age of light at clients, and the time that they take to join, over a
+// path that delays and loses packets. Prints the tables of docs/serve.md.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -48,7 +48,7 @@ struct Arrival {
   Clock::time_point at;
 };
 
-/// A folder with a token in it, as servers ask for one off loopback.
+/// A folder with a token file, which servers require except on loopback.
 class Token {
  public:
   Token() {
@@ -83,8 +83,8 @@ Address address() {
   return address;
 }
 
-/// Clients of which all have light; the first one decodes what it gets. Throws where that does not
-/// come.
+/// Connects clients, the first of which decodes, and waits until all have light. Throws if they do
+/// not get it.
 std::unique_ptr<LightClients> join(int count, const LightClients::OnLight& on_light) {
   constexpr std::chrono::seconds kPatience{120};
   const auto end = Clock::now() + kPatience;
@@ -95,13 +95,13 @@ std::unique_ptr<LightClients> join(int count, const LightClients::OnLight& on_li
       clients->run_for(std::chrono::milliseconds(20));
       if (clients->seen().joined >= static_cast<std::size_t>(count)) return clients;
     }
-    // The server may not listen yet
+    // Retry, since the server may not listen yet
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
   throw std::runtime_error("the server does not answer");
 }
 
-/// What clients far away have seen.
+/// Measurements of distant clients.
 struct Measured {
   std::vector<std::vector<Arrival>> arrivals;  // of each client
   Clock::time_point begin, end;
@@ -116,7 +116,7 @@ Measured measure(const Options& options) {
   const auto clients = join(options.clients, [&](std::size_t client, std::uint64_t update) {
     measured.arrivals[client].push_back({update, Clock::now()});
   });
-  clients->run_for(std::chrono::seconds(5));  // those that came last catch up
+  clients->run_for(std::chrono::seconds(5));  // the last clients catch up
   const std::uint64_t keys = clients->seen().keys;
   measured.begin = Clock::now();
   clients->run_for(std::chrono::milliseconds(static_cast<int>(1e3 * options.seconds)));
@@ -129,7 +129,7 @@ Measured measure(const Options& options) {
   for (int i = 0; i < options.joins; ++i) {
     const auto late = join(1, nullptr);
     measured.join_ms.push_back(late->seen().join_ms.front());
-    for (int slice = 0; slice < 5; ++slice) {  // those that stay answer
+    for (int slice = 0; slice < 5; ++slice) {  // clients that stay must answer meanwhile
       clients->run_for(std::chrono::milliseconds(50));
       late->run_for(std::chrono::milliseconds(50));
     }
@@ -138,7 +138,7 @@ Measured measure(const Options& options) {
   return measured;
 }
 
-/// Ages [ms] at each millisecond of the measured time, of what each client had then.
+/// The age of each client's light [ms] at each millisecond of the measured time.
 std::vector<double> ages_of(const Measured& measured,
                             const std::map<std::uint64_t, Clock::time_point>& made) {
   std::vector<double> ages;
@@ -154,7 +154,8 @@ std::vector<double> ages_of(const Measured& measured,
   return ages;
 }
 
-/// Ages [ms] at each millisecond of the measured time, of what a client beside the server had then.
+/// The age of the light of a client next to the server [ms] at each millisecond of the measured
+/// time.
 std::vector<double> ages_beside(const Measured& measured,
                                 const std::map<std::uint64_t, Clock::time_point>& made) {
   Measured beside = measured;
@@ -163,7 +164,7 @@ std::vector<double> ages_beside(const Measured& measured,
   return ages_of(beside, made);
 }
 
-/// From when light was there at the server until a client had it [ms].
+/// Times from when light was available at the server until a client had it [ms].
 std::vector<double> delays_of(const Measured& measured,
                               const std::map<std::uint64_t, Clock::time_point>& made) {
   std::vector<double> delays;
@@ -210,7 +211,7 @@ int run(const Options& options) {
   ImpairedPath path(settings, options.congestion);
   const Token token;
 
-  // The server, and a client beside it that tells when light is there
+  // Start the server, and a client next to it that records when light is available
   std::map<std::uint64_t, Clock::time_point> made;
   std::atomic<bool> ready = false, done = false;
   std::exception_ptr failure;

@@ -20,13 +20,13 @@
 namespace lambent::stream_path {
 namespace {
 
-/// Throws where a call of the system's failed.
+/// Throws if a system call failed.
 int checked(int result, const char* what) {
   if (result < 0) throw std::system_error(errno, std::generic_category(), what);
   return result;
 }
 
-/// Runs on a thread of its own, so that the caller stays in its network.
+/// Runs `work` on a thread of its own, so that the caller remains in its network.
 template <class Work>
 void run_apart(const Work& work) {
   std::exception_ptr failure;

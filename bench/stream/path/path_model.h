@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One direction of a path through a network, as a queue: what Linux calls netem, for kernels that
-// are built without.
+// One direction of a path through a network, as a queue: a replacement of Linux's netem, for
+// kernels without it.
 #pragma once
 
 #include <algorithm>
@@ -13,22 +13,22 @@
 namespace lambent::stream_path {
 
 struct PathSettings {
-  std::chrono::microseconds delay{0};  ///< Of each packet, one way.
-  double loss = 0.0;                   ///< Share of packets that are lost, each by itself, 0 to 1.
-  double rate = 0.0;                   ///< Bits a second; 0: without a bound.
-  /// Packets that come while more than this waits for its turn are lost.
+  std::chrono::microseconds delay{0};  ///< One-way delay of each packet.
+  double loss = 0.0;                   ///< Probability with which each packet is lost, 0 to 1.
+  double rate = 0.0;                   ///< [bit/s]; 0: unlimited.
+  /// Packets that arrive while the queue is longer than this are lost.
   std::chrono::microseconds queue{100'000};
-  std::uint32_t seed = 1;  ///< Of the losses.
+  std::uint32_t seed = 1;  ///< Seed of the losses.
 };
 
-/// Decides when a packet arrives, and whether it does. Packets stay in their order.
+/// Decides whether and when a packet arrives. Packets are not reordered.
 class PathModel {
  public:
   using Clock = std::chrono::steady_clock;
 
   explicit PathModel(const PathSettings& settings) : settings_(settings), random_(settings.seed) {}
 
-  /// When a packet arrives that is sent now; none: it is lost.
+  /// The arrival time of a packet that is sent now; none: it is lost.
   std::optional<Clock::time_point> send(Clock::time_point now, std::size_t bytes) {
     if (std::bernoulli_distribution(settings_.loss)(random_)) return std::nullopt;
     free_ = std::max(free_, now);
@@ -44,7 +44,7 @@ class PathModel {
  private:
   PathSettings settings_;
   std::mt19937 random_;
-  Clock::time_point free_;  // when all that was sent before has left
+  Clock::time_point free_;  // when all earlier packets have left the queue
 };
 
 }  // namespace lambent::stream_path

@@ -25,11 +25,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names that other programs took are tried past, but not for ever.
+/// Maximum number of temporary names to try, where others are taken.
 constexpr int kMaxNameAttempts = 100;
-/// Of a file's buffer, and of what is copied at a time [bytes]: few calls to the system.
+/// Size of a file's buffer, and of a step of copying [bytes]; large, for few system calls.
 constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
-/// Rights of new files, less the user's umask.
+/// Permissions of new files, less the user's umask.
 constexpr mode_t kNewFileMode = 0666;
 
 std::string system_cause(int error_number) {
@@ -42,8 +42,8 @@ int errno_or(int otherwise) {
 
 std::atomic_flag names_in_use = ATOMIC_FLAG_INIT;
 
-/// While it lives, temporary names appear and vanish in this thread alone: signals wait in it, and
-/// handlers in other threads wait for it, so that none finds a name half made.
+/// While it exists, only this thread creates and removes temporary names: it blocks signals in this
+/// thread, and handlers in other threads wait for it, so that none sees a partial list.
 class NameLock {
  public:
   NameLock() {
@@ -63,7 +63,8 @@ class NameLock {
   sigset_t before_{};
 };
 
-/// Temporary names that exist; under NameLock. Never destroyed: a signal may come at the very end.
+/// Existing temporary names; guarded by NameLock. Never destroyed, since a signal may arrive at
+/// exit.
 std::vector<std::string>& temporary_names() {
   static auto* names = new std::vector<std::string>;
   return *names;
@@ -78,10 +79,10 @@ std::string temporary_name(const std::string& target) {
   return target + ".tmp-" + std::to_string(count.fetch_add(1));
 }
 
-/// A descriptor of a new file in the directory that has no name, or -1.
+/// Opens a new file without a name in the directory. Returns a descriptor, or -1.
 int open_nameless(const std::string& directory) {
 #ifdef O_TMPFILE
-  // It is named through its entry in /proc
+  // The file will be named through its entry in /proc
   if (::access("/proc/self/fd", X_OK) != 0) return -1;
   return ::open(directory.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, kNewFileMode);
 #else
@@ -90,7 +91,7 @@ int open_nameless(const std::string& directory) {
 #endif
 }
 
-/// A descriptor of a new file beside the target, or -1 with errno set. Its name goes to `name`.
+/// Opens a new file beside the target. Returns a descriptor, or -1 with errno set. Sets `name`.
 int open_named(const std::string& target, std::string& name) {
   const NameLock lock;
   for (int attempt = 0; attempt < kMaxNameAttempts; ++attempt) {
@@ -144,7 +145,7 @@ Expected<AtomicFile> AtomicFile::open(const std::string& path, Unfinished how) {
     if (made.file_ == nullptr) return made.failure(errno_or(EIO));
     return made;
   }
-  temporary_names();  // made before a handler could need it
+  temporary_names();  // construct it before a handler could need it
   const std::string directory = fs::path(made.target_).parent_path().string();
   if (how == Unfinished::nameless_if_possible) descriptor = open_nameless(directory);
   if (descriptor < 0) descriptor = open_named(made.target_, made.temporary_);
@@ -152,7 +153,7 @@ Expected<AtomicFile> AtomicFile::open(const std::string& path, Unfinished how) {
     made.temporary_.clear();
     return made.failure(errno_or(EIO));
   }
-  // A file that is replaced keeps its rights
+  // Keep the permissions of a file that is replaced
   if (exists) (void)!::fchmod(descriptor, status.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO));
   made.file_ = ::fdopen(descriptor, "wb+");
   if (made.file_ == nullptr) {
@@ -192,7 +193,7 @@ Expected<void> AtomicFile::seek(std::uint64_t position) {
   return failure(errno_or(EIO));
 }
 
-/// Copies the content to what cannot be replaced.
+/// Copies the content to a target that cannot be replaced.
 Expected<void> AtomicFile::send() {
   const int to = descriptor_ >= 0 ? ::dup(descriptor_)
                                   : ::open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
@@ -211,7 +212,7 @@ Expected<void> AtomicFile::send() {
   return {};
 }
 
-/// Puts the complete file in the place of the target. Returns 0 or errno.
+/// Replaces the target by the complete file. Returns 0 or errno.
 int AtomicFile::give_name(int descriptor) {
   const NameLock lock;
   if (!temporary_.empty()) {
@@ -227,7 +228,7 @@ int AtomicFile::give_name(int descriptor) {
     return done == 0 ? 0 : errno_or(EIO);
   };
   int error_number = link_to(target_);
-  // A link never replaces what is there, a new name does
+  // linkat never replaces a file, but rename does
   for (int attempt = 0; error_number == EEXIST && attempt < kMaxNameAttempts; ++attempt) {
     const std::string name = temporary_name(target_);
     error_number = link_to(name);
@@ -244,7 +245,7 @@ Expected<void> AtomicFile::commit() {
   errno = 0;
   if (std::fflush(file_) != 0) return failure(errno_or(EIO));
   if (!replaces_) return send();
-  // Some file systems tell only on close that the disk was full: close a second descriptor
+  // Some file systems report a full disk only on close: close a second descriptor
   const int descriptor = ::fileno(file_);
   const int second = ::dup(descriptor);
   if (second < 0 || ::close(second) != 0) return failure(errno_or(EIO));
@@ -272,12 +273,12 @@ Expected<void> check_writable(const std::string& path) {
   struct stat status {};
   const bool exists = ::stat(path.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) return fail(path, "", "cannot write: is a directory");
-  // What is written in place needs no right to its directory
+  // Targets that are written in place need no permission for their directory
   if (exists && !S_ISREG(status.st_mode)) {
     if (::access(end.path.c_str(), W_OK) == 0) return {};
     return fail(path, "", system_cause(errno_or(EIO)), Error::Kind::failed);
   }
-  // Rights do not tell of file systems that take no new files, nor of quotas: only a try does
+  // Permissions do not show read-only file systems and quotas; only an attempt does
   const Expected<AtomicFile> attempt = AtomicFile::open(path);
   if (!attempt) return tl::unexpected(attempt.error());
   return {};

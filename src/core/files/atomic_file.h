@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that come to be whole or not at all.
+// Atomic writing of files: a file is complete, or it does not appear.
 //
-// A file is written without a name where the system can (O_TMPFILE) and is given its name when it
-// is complete: whatever ends the program before, be it a signal, a crash or a loss of power, leaves
-// nothing behind, with no handler and no cleaning up. Elsewhere (NFS, FAT) it has a temporary name
+// Where the system supports it (O_TMPFILE), a file is written without a name and gets its name when
+// it is complete. Whatever ends the program before, be it a signal, a crash or a loss of power,
+// leaves nothing behind, without handlers and cleanup. Elsewhere (NFS, FAT) it has a temporary name
 // beside the target, which discard_unfinished_files removes.
 #pragma once
 
@@ -19,16 +19,18 @@
 
 namespace lambent {
 
-/// A file under construction. Without commit() it never comes to be, and what was there stays.
+/// A file that is being written. Without commit() it does not appear, and an existing file is not
+/// changed.
 class AtomicFile {
  public:
-  /// How the file is kept until it is complete: without a name where the system can, or with one.
+  /// How the file is stored until it is complete: without a name where the system supports it, or
+  /// with a temporary name.
   enum class Unfinished { nameless_if_possible, named };
 
-  /// Begins the file. A symbolic link keeps pointing where it did, also where that does not exist
-  /// yet. Devices, pipes and open descriptors (/dev/null, /dev/stdout) cannot be replaced: they are
-  /// sent the whole content on commit. Fails with bad_input on an empty name and on a directory,
-  /// else with failed.
+  /// Begins the file. A symbolic link is followed and not replaced, even if its target does not
+  /// exist yet. Devices, pipes and open descriptors (/dev/null, /dev/stdout) cannot be replaced:
+  /// the whole content is written to them on commit. Fails with bad_input on an empty name and on a
+  /// directory, else with failed.
   static Expected<AtomicFile> open(const std::string& path,
                                    Unfinished how = Unfinished::nameless_if_possible);
 
@@ -36,14 +38,15 @@ class AtomicFile {
   AtomicFile& operator=(AtomicFile&& other) = delete;
   ~AtomicFile();
 
-  /// Appends at the current position. After a failure only destruction makes sense.
+  /// Appends at the current position. After a failure, only destroy the object.
   Expected<void> write(std::span<const std::byte> bytes);
-  /// Goes to a position [bytes from the start] to write over what is there.
+  /// Moves to a position [bytes from the start] to overwrite what was written there.
   Expected<void> seek(std::uint64_t position);
-  /// The name that the user gave.
+  /// The path as the user gave it.
   const std::string& path() const { return path_; }
 
-  /// Makes the file what was written. Fails where the disk is full, too; nothing remains then.
+  /// Replaces the target by what was written. Fails also where the disk is full; nothing remains
+  /// then.
   Expected<void> commit();
 
  private:
@@ -52,11 +55,11 @@ class AtomicFile {
   Expected<void> send();
   int give_name(int descriptor);
 
-  std::string path_;       // as the user named it
+  std::string path_;       // as the user gave it
   std::string target_;     // where its links lead
-  std::string temporary_;  // its name until then; empty: none
-  bool replaces_ = true;   // false: what is there is sent the content
-  int descriptor_ = -1;    // ... through this open descriptor of ours; -1: through its name
+  std::string temporary_;  // name until commit; empty: none
+  bool replaces_ = true;   // false: the content is written to the existing target
+  int descriptor_ = -1;  // open descriptor of this process to which it is written; -1: by its name
   std::FILE* file_ = nullptr;
 };
 
@@ -64,12 +67,12 @@ class AtomicFile {
 Expected<void> write_file_atomically(const std::string& path, std::span<const std::byte> bytes);
 Expected<void> write_file_atomically(const std::string& path, std::string_view text);
 
-/// Fails as write_file_atomically would for want of a directory or of the right to write, without
-/// writing: so that work of minutes does not end in a path that was mistyped.
+/// Fails as write_file_atomically would if the directory is missing or not writable, without
+/// writing, so that minutes of work are not lost to a mistyped path.
 Expected<void> check_writable(const std::string& path);
 
-/// For signal handlers of programs, which must end the process afterwards: removes what unfinished
-/// files have a temporary name, and keeps any more from getting one. Safe in a handler.
+/// For signal handlers of programs, which must end the process afterwards: removes unfinished files
+/// that have a temporary name, and prevents new ones. Safe in a handler.
 void discard_unfinished_files() noexcept;
 
 }  // namespace lambent

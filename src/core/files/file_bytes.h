@@ -11,7 +11,7 @@
 
 namespace lambent {
 
-/// Files above this [bytes] are refused before anything is allocated; no image comes near it.
+/// Files above this [bytes] are refused before anything is allocated; images are far smaller.
 inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30;
 
 /// All bytes of a regular file. Fails when it is missing, not a file, unreadable or above

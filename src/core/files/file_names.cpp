@@ -18,10 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Links of links are followed so far, as Linux does; a longer chain is a loop.
+/// Maximum length of a chain of symbolic links, as in Linux; a longer one counts as a loop.
 constexpr int kMaxLinks = 40;
 
-/// The descriptor that an entry of /proc/self/fd (or /dev/fd) is, or -1.
+/// The descriptor that an entry of /proc/self/fd (or /dev/fd) represents, or -1.
 int descriptor_of(const fs::path& path) {
   const std::string name = path.filename().string();
   int descriptor = -1;
@@ -34,8 +34,8 @@ int descriptor_of(const fs::path& path) {
   return ours ? descriptor : -1;
 }
 
-/// What tells files apart. Of one that does not exist: the directory it will be in, and its name
-/// from there on.
+/// Identifies a file. For one that does not exist: the directory that will contain it, and its path
+/// from there.
 struct Identity {
   dev_t device = 0;
   ino_t inode = 0;
@@ -46,7 +46,7 @@ struct Identity {
   bool operator==(const Identity& other) const { return key() == other.key(); }
 };
 
-/// None of devices, pipes and paths that lead nowhere.
+/// The identity of a file; none for devices, pipes and paths without a target.
 std::optional<Identity> identity_of(const std::string& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) == 0) {
@@ -64,8 +64,8 @@ std::optional<Identity> identity_of(const std::string& path) {
   return std::nullopt;
 }
 
-/// Whether a file system could take the names for the same: it may fold the case of letters, and of
-/// those outside ASCII also how they are spelled.
+/// Whether a file system could treat the names as the same: it may ignore case, and normalise
+/// letters outside ASCII.
 bool could_be_folded(const std::string& a, const std::string& b) {
   const auto is_ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
   const bool plain =
@@ -77,7 +77,7 @@ bool could_be_folded(const std::string& a, const std::string& b) {
                               [&](char x, char y) { return lower(x) == lower(y); });
 }
 
-/// Asks the file system itself: makes the one file for a moment, and looks for the other.
+/// Tests the file system itself: creates one file for a moment, and looks for the other.
 bool folded_together(const std::string& a, const std::string& b) {
   const int made = ::open(a.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (made < 0) return false;
@@ -90,7 +90,7 @@ bool folded_together(const std::string& a, const std::string& b) {
   return same;
 }
 
-/// Whether files that are not there yet would be one.
+/// Whether two files that do not exist yet would be the same.
 bool will_be_one(const Identity& a, const Identity& b, const std::string& path_a,
                  const std::string& path_b) {
   if (a.name.empty() || b.name.empty() || a.device != b.device || a.inode != b.inode) return false;
@@ -117,7 +117,7 @@ PathEnd end_of_path(const std::string& path) {
   fs::path end = path;
   std::error_code error;
   for (int links = 0; links < kMaxLinks; ++links) {
-    // Directories are resolved first, for ".." in a link starts from where the link really is
+    // Resolve directories first, since ".." in a link is relative to the link's real directory
     fs::path parent = end.has_parent_path() ? end.parent_path() : fs::path(".");
     const fs::path real = fs::weakly_canonical(fs::absolute(parent), error);
     if (!error) parent = real;
@@ -145,7 +145,7 @@ bool same_file(const std::string& a, const std::string& b) {
 
 Expected<void> check_distinct_files(std::span<const NamedFile> files) {
   std::map<Identity, const NamedFile*> known;
-  // What is read comes first, so that reading a file twice hides no clash
+  // Files that are read come first, so that reading a file twice hides no conflict
   std::vector<const NamedFile*> sorted;
   for (const NamedFile& file : files) sorted.push_back(&file);
   std::stable_partition(sorted.begin(), sorted.end(), [](const auto* f) { return !f->written; });
@@ -155,7 +155,7 @@ Expected<void> check_distinct_files(std::span<const NamedFile> files) {
     if (!identity) continue;
     const auto [entry, is_new] = known.emplace(*identity, file);
     if (!is_new && file->written) return clash(*file, *entry->second);
-    // Names that differ may still be one to the file system
+    // The file system may treat different names as the same
     if (!is_new || identity->name.empty()) continue;
     for (const auto& [other, other_file] : known) {
       if (other_file == file) continue;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kPercentile = 0.01;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// A value that `share` of the values are below. The order of the values changes.
+/// The value below which `share` of the values are. Changes the order of the values.
 double percentile(std::vector<double>& values, double share) {
   const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + place, values.end());

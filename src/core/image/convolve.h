@@ -17,7 +17,7 @@ struct Kernel {
 Kernel gaussian_kernel(float sigma, int radius);
 
 /// `image` filtered by `horizontal`, then by `vertical`; pixels beyond the border repeat it. All
-/// channels alike.
+/// channels are filtered alike.
 Image convolve(const Image& image, const Kernel& horizontal, const Kernel& vertical);
 
 }  // namespace lambent

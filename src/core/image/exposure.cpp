@@ -10,25 +10,26 @@ namespace lambent {
 namespace {
 
 constexpr double kMidGrey = 0.18;
-// Pixels count as at most so much darker or brighter than the median [stops]: the range that a
+// Pixels count as at most this much darker or brighter than the median [stops]: the range that a
 // display shows around mid-grey.
 constexpr double kDarker = 5.0, kBrighter = 3.0;
-// How much of the way an exposure goes from that of a camera, which shows snow as grey, to that of
-// a meter held into the scene's light, which shows snow as white as it is. All of the way would
-// leave white walls no room for highlights. Dark surfaces stay as a camera shows them: a street at
-// night is dark enough.
+// Interpolation weight between the exposure by a reflected-light meter (0), which shows snow as
+// grey, and by an incident-light meter (1), which shows snow as white. With 1, white walls would
+// leave no room for highlights. Applies only to surfaces lighter than mid-grey: a street at night
+// is dark enough.
 constexpr double kAlbedoShare = 0.5;
-// No more than this share of a picture, of the surfaces in it, is to be shown brighter than so many
-// stops above mid-grey, half a stop past white: what stands in spot lights on a dark stage. An
-// exposure is lowered by at most so much for it: a room is not left in the dark for a patch of sun.
+// Surfaces that cover at most kBrightShare of a picture may be brighter than kBright [stops] above
+// mid-grey, half a stop past white; otherwise, as with objects in spot lights on a dark stage, the
+// exposure is lowered, but by no more than kMaxLowered [stops], so that a patch of sun does not
+// make a room dark.
 constexpr double kBrightShare = 0.1, kBright = 3.0, kMaxLowered = 2.0;
 
-/// Whether something that reflects is in a pixel, rather than sky or a lamp.
+/// Whether a pixel shows a reflecting surface, rather than sky or a lamp.
 bool is_surface(const float* albedo) {
   return albedo[0] > 0.0f || albedo[1] > 0.0f || albedo[2] > 0.0f;
 }
 
-/// The stops by which a surface of this albedo counts as darker than it is.
+/// The number of stops by which a surface of this albedo counts as darker than its luminance.
 double albedo_stops(const float* albedo) {
   const auto level = static_cast<double>(luminance(vec3(albedo[0], albedo[1], albedo[2])));
   return level > kMidGrey ? kAlbedoShare * std::log2(level / kMidGrey) : 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exposure that suits a picture.
+// Automatic exposure of pictures.
 #pragma once
 
 #include <array>
@@ -10,39 +10,40 @@
 
 namespace lambent {
 
-/// How often each luminance is in a picture, collected row by row, so that the exposure of a
-/// picture that memory does not hold can be found.
+/// A histogram of a picture's luminances, collected by rows, from which the exposure is found even
+/// of a picture that does not fit into memory.
 class LuminanceHistogram {
  public:
-  /// Counts the pixels of an image of linear radiance; black ones, and what is no number, do not
-  /// count. `albedo` is that of the surfaces in its pixels, 0 where there is none; null: not known.
+  /// Counts the pixels of an image of linear radiance; black ones and NaN do not count. `albedo` is
+  /// that of the surfaces in its pixels, 0 where there is none; null: not known.
   void add(const Image& linear, const Image* albedo = nullptr);
 
-  /// The stops that bring what is typical of the picture to mid-grey; 0 where all is black. Of
-  /// surfaces lighter than mid-grey it is half way between what they send and what a mid-grey card
-  /// in their place would, by stops: a white room is to look white. The log-average luminance, as
-  /// of Reinhard et al., "Photographic Tone Reproduction for Digital Images", 2002, Eq. 1 and 2,
-  /// but each pixel counts as no further from the median than some stops: a lamp in the picture, or
-  /// a black corner, does not decide what the rest looks like. Where more than a tenth of the
-  /// picture is surfaces far brighter than that, it is up to two stops less.
+  /// The exposure that brings the typical luminance of the picture to mid-grey [stops]; 0 where all
+  /// is black. The typical luminance is the log-average of Reinhard et al., "Photographic Tone
+  /// Reproduction for Digital Images", 2002, Eq. 1 and 2, with two changes. Surfaces lighter than
+  /// mid-grey count with the mean, in stops, of their luminance and that of a mid-grey card in
+  /// their place, so that a white room looks white. Each pixel counts as no further from the median
+  /// than some stops, so that lamps and black corners do not determine the exposure. Where surfaces
+  /// far brighter than this cover more than a tenth of the picture, the exposure is up to two stops
+  /// less.
   float stops() const;
 
  private:
   static constexpr int kBinsPerStop = 8;
-  static constexpr int kMinStop = -64, kMaxStop = 64;  // luminances beyond fall into the end bins
+  static constexpr int kMinStop = -64, kMaxStop = 64;  // luminances beyond are in the end bins
   static constexpr std::size_t kBins = (kMaxStop - kMinStop) * kBinsPerStop;
   static std::size_t bin_of(double stops);
   static double stop_of(std::size_t bin);
-  /// The luminance [stops] that so many pixels of surfaces reach; the least where there are fewer.
+  /// The luminance [stops] that `pixels` pixels of surfaces reach; the lowest if there are fewer.
   double bright_stop(double pixels) const;
 
-  std::array<std::uint64_t, kBins> counts_{};    // stops by which pixels count
-  std::array<std::uint64_t, kBins> surfaces_{};  // those of what reflects, as bright as it is
+  std::array<std::uint64_t, kBins> counts_{};    // by the luminance as which pixels count
+  std::array<std::uint64_t, kBins> surfaces_{};  // pixels of surfaces, by actual luminance
 };
 
 /// The exposure of an image of linear radiance [stops].
 float display_stops(const Image& linear);
-/// The exposure of a frame's picture [stops], by its albedo where it has such a layer.
+/// The exposure of a frame's picture [stops]; uses its albedo layer if it has one.
 float display_stops(const LayeredImage& frame);
 
 }  // namespace lambent

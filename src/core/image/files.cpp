@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images from and to files of any format.
+// Reads and writes image files of any format.
 #include <new>
 
 #include "core/files/file_bytes.h"
@@ -10,7 +10,7 @@ namespace lambent {
 
 namespace {
 
-/// Smaller images [bytes] are not worth asking the system how much memory there is.
+/// For smaller images [bytes], the available memory is not checked.
 constexpr std::uint64_t kLargeBytes = std::uint64_t{1} << 28;
 
 std::string shape_of(std::int64_t width, std::int64_t height, std::int64_t channels) {

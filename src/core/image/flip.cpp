@@ -45,11 +45,11 @@ vec3 linear_from_xyz(const vec3& xyz) {
   return kInverse * xyz;
 }
 
-/// CIE 15: scales of CIELAB, and the lightness that its curve has at black.
+/// CIE 15: scales of CIELAB, and the offset of its lightness.
 constexpr float kLabLightness = 116.0f, kLabBlack = 16.0f, kLabA = 500.0f, kLabB = 200.0f;
 /// Largest lightness: that of white.
 constexpr float kLabWhite = 100.0f;
-/// Standard deviations that a Gaussian's taps reach to each side.
+/// Radius of Gaussian filters [standard deviations].
 constexpr float kGaussianReach = 3.0f;
 
 /// Sec. 4.1: the linearised CIELAB in which the eye's contrast sensitivity is modelled.
@@ -79,7 +79,7 @@ vec3 hunt_lab_from_linear(const vec3& linear) {
               share_of_white * kLabB * (f.y - f.z));
 }
 
-/// Abasi et al. 2020: HyAB, a distance of colours that also holds for large ones.
+/// Abasi et al. 2020: HyAB, a colour distance that is also valid for large differences.
 float hyab(const vec3& a, const vec3& b) {
   const vec3 d = a - b;
   return std::abs(d.x) + std::sqrt(d.y * d.y + d.z * d.z);
@@ -107,8 +107,8 @@ float sensitivity_sigma(float b, float pixels_per_degree) {
   return std::sqrt(b / (2.0f * kPi * kPi)) * pixels_per_degree;
 }
 
-/// One opponent channel as the eye resolves it. A sum of two Gaussians in 2D is two separable
-/// filters; their shares are their volumes on the pixel grid.
+/// One opponent channel, filtered by the eye's contrast sensitivity. A sum of two Gaussians in 2D
+/// is two separable filters, weighted by their volumes on the pixel grid.
 Image filter_channel(const Image& channel, const Sensitivity& csf, float pixels_per_degree) {
   const int radius = static_cast<int>(
       std::ceil(kGaussianReach * sensitivity_sigma(kBlueYellow.b1, pixels_per_degree)));
@@ -133,7 +133,7 @@ Image filter_channel(const Image& channel, const Sensitivity& csf, float pixels_
   return filtered;
 }
 
-/// A linear RGB image taken apart into its three opponent channels.
+/// The three opponent channels of a linear RGB image.
 struct Opponent {
   Image achromatic, red_green, blue_yellow;
 };
@@ -193,7 +193,7 @@ Image feature_strength(const Image& achromatic, int order, float pixels_per_degr
   return dx;
 }
 
-/// Sec. 4.1.3: a colour difference of any size to [0, 1].
+/// Sec. 4.1.3: maps a colour difference of any size to [0, 1].
 float redistribute(float difference, float largest) {
   const float limit = kLinearShare * largest;
   if (difference < limit) return kLinearTarget / limit * difference;
@@ -221,7 +221,7 @@ Image flip(const Image& test, const Image& reference, float pixels_per_degree) {
   const Image points_test = feature_strength(grey_test, 2, pixels_per_degree);
   const Image points_reference = feature_strength(grey_reference, 2, pixels_per_degree);
 
-  // Between green and blue lies the largest difference of Rec. 709.
+  // Green and blue have the largest difference in Rec. 709.
   const float largest = std::pow(hyab(hunt_lab_from_linear(vec3(0.0f, 1.0f, 0.0f)),
                                       hunt_lab_from_linear(vec3(0.0f, 0.0f, 1.0f))),
                                  kColorExponent);
@@ -232,7 +232,7 @@ Image flip(const Image& test, const Image& reference, float pixels_per_degree) {
     const float edge = std::abs(edges_reference.pixels[i] - edges_test.pixels[i]);
     const float point = std::abs(points_reference.pixels[i] - points_test.pixels[i]);
     const float feature = std::pow(std::max(edge, point) / std::sqrt(2.0f), kFeatureExponent);
-    // Sec. 4.3: a feature that appears or vanishes makes a colour difference count for more.
+    // Sec. 4.3: a feature that appears or vanishes increases the colour difference.
     result.pixels[i] = std::pow(color, 1.0f - std::min(feature, 1.0f));
   });
   return result;

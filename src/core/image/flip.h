@@ -5,7 +5,7 @@
 
 namespace lambent {
 
-/// How many pixels a viewer has per degree of vision: 0.7 m in front of a display of 3,840 pixels
+/// Pixels per degree of the viewer's field of vision: 0.7 m in front of a display of 3,840 pixels
 /// on 0.7 m, the setting of both FLIP papers.
 inline constexpr float kFlipPixelsPerDegree = 67.0206f;
 
@@ -15,9 +15,9 @@ inline constexpr float kFlipPixelsPerDegree = 67.0206f;
 Image flip(const Image& test, const Image& reference,
            float pixels_per_degree = kFlipPixelsPerDegree);
 
-/// The same for linear radiance of any range: the largest LDR-FLIP over the exposures at which the
-/// reference shows its lights and its shadows. Andersson et al. 2021 (HDR-FLIP). Costs one flip()
-/// per stop between them.
+/// The difference for linear radiance of any range: the largest LDR-FLIP over the exposures at
+/// which the reference shows its lights and its shadows. Andersson et al. 2021 (HDR-FLIP). Costs
+/// one flip() per stop between them.
 Image hdr_flip(const Image& test, const Image& reference,
                float pixels_per_degree = kFlipPixelsPerDegree);
 

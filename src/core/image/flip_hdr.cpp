@@ -11,17 +11,17 @@
 namespace lambent {
 namespace {
 
-/// Narkowicz, "ACES Filmic Tone Mapping Curve", 2016, times 0.6 in its input, as the paper has it:
-/// (a x^2 + b x) / (c x^2 + d x + e).
+/// Narkowicz, "ACES Filmic Tone Mapping Curve", 2016, with its input multiplied by 0.6, as in the
+/// paper: (a x^2 + b x) / (c x^2 + d x + e).
 constexpr double kPreScale = 0.6;
 constexpr double kA = 2.51 * kPreScale * kPreScale, kB = 0.03 * kPreScale;
 constexpr double kC = 2.43 * kPreScale * kPreScale, kD = 0.59 * kPreScale, kE = 0.14;
 /// Sec. 3.1: a pixel counts as nearly white where the curve reaches this.
 constexpr double kNearlyWhite = 0.85;
-/// Radiance is capped here [W/(m^2 sr)], where the curve is white at any exposure, to keep squares
-/// finite.
+/// Radiance is clamped to this [W/(m^2 sr)], where the curve is white at any exposure, so that
+/// squares are finite.
 constexpr double kMaxRadiance = 1e8;
-/// A reference of black pixels with one bright one would ask for exposures without end.
+/// Limit of exposures, since a black reference with one bright pixel would need very many.
 constexpr int kMaxExposures = 24;
 
 float narkowicz(double value) {

@@ -16,17 +16,17 @@ namespace {
 
 using ColorOf = std::function<glm::vec3(float)>;
 
-/// Panels are enlarged by whole factors until they are this wide [pixels], so that labels fit and
-/// pixels show.
+/// Panels are enlarged by integer factors until they are this wide [pixels], so that labels fit and
+/// pixels are visible.
 constexpr int kMinPanelWidth = 256;
-/// ... but not beyond this height [pixels]: a narrow column would grow to gigabytes.
+/// Enlarged panels are at most this high [pixels]: a narrow column would grow to gigabytes.
 constexpr int kMaxEnlargedHeight = 4096;
 constexpr int kMargin = 8;
 constexpr int kLegendBar = 12;
 constexpr int kGlyphScale = 2, kGlyphWidth = 3, kGlyphHeight = 5;
 constexpr int kLegendHeight = kLegendBar + 3 * kMargin + kGlyphScale * kGlyphHeight;
-/// Where B is darker than this share of its mean, errors are measured against this share: black
-/// pixels would else drown the picture in infinite relative errors.
+/// Where B is darker than this share of its mean, errors are relative to this share of the mean;
+/// otherwise black pixels would have infinite relative errors.
 constexpr float kDarkShare = 0.1f;
 
 const glm::vec3 kBackground(1.0f), kInk(0.1f), kNotFinite(1.0f, 0.0f, 1.0f);
@@ -81,7 +81,7 @@ int text_width(std::string_view text) {
   return static_cast<int>(text.size()) * (kGlyphWidth + 1) * kGlyphScale - kGlyphScale;
 }
 
-/// What a panel shows: one value a pixel, its colours, and the legend's ends and middle.
+/// The contents of a panel: one value per pixel, the colour map, and the legend's ends and middle.
 struct Panel {
   Image values;  ///< One channel.
   ColorOf color_of;
@@ -139,7 +139,7 @@ Image relative_errors(const ImagePair& pair) {
   for (std::size_t i = 0; i < errors.pixels.size(); ++i) {
     const float reference = luminance_at(b, i);
     const float difference = luminance_at(a, i) - reference;
-    // Light where B is black all over counts as infinitely too much.
+    // Where all of B is black, light counts as an infinite error.
     const float scale = std::max(std::abs(reference), floor);
     errors.pixels[i] = difference == 0.0f ? 0.0f : difference / scale;
   }

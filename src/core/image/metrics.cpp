@@ -13,10 +13,10 @@
 namespace lambent {
 namespace {
 
-/// PSNR's white for linear radiance is the value that this share of B's numbers stays under, so
-/// that a lamp or a firefly in view does not flatter the ratio.
+/// PSNR's white for linear radiance is this quantile of B's numbers, so that a lamp or a firefly
+/// does not inflate PSNR.
 constexpr double kPeakPercentile = 0.999;
-/// Reinhard et al. 2002: the value of mid-grey that the log-average is brought to.
+/// Reinhard et al. 2002: the value of mid-grey to which the log-average is scaled.
 constexpr double kMidGrey = 0.18;
 constexpr int kMaxColorChannels = 3;
 
@@ -37,7 +37,7 @@ Image with_channels(const Image& image, int channels) {
   return result;
 }
 
-/// Valid pixels' means over blocks; `counts` has the pixels of each.
+/// Means of valid pixels over blocks; `counts` has the number of pixels in each.
 struct Blocks {
   Image means;
   std::vector<int> counts;

@@ -11,21 +11,20 @@
 namespace lambent {
 
 struct MetricsOptions {
-  /// Side of the blocks [pixels], >= 1, on whose means rmse and its relatives are computed. Where
-  /// the reference itself is noisy, 8 hides its noise and keeps structure. SSIM and FLIP always see
-  /// single pixels.
+  /// Side of the blocks [pixels], >= 1, over whose means rmse and related metrics are computed.
+  /// Where the reference itself is noisy, 8 hides its noise but preserves structure. SSIM and FLIP
+  /// always use single pixels.
   int block = 1;
-  double scale = 1.0;  ///< Multiplies A before all else.
+  double scale = 1.0;  ///< Multiplies A before anything else.
   /// Standard error of B per pixel, of B's shape; null where unknown.
   const Image* standard_error = nullptr;
   /// The images came from display files (PNG, JPEG): white is 1 and nothing is exposed; no
   /// HDR-FLIP.
   bool display = false;
-  bool perceptual =
-      true;  ///< false leaves ssim and flip out (NaN): for layers that are no pictures.
+  bool perceptual = true;  ///< false omits ssim and flip (NaN), for layers that are not pictures.
 };
 
-/// How image A differs from reference B. Numbers without a pixel to stand on are NaN.
+/// Differences of image A from reference B. NaN where no pixel can be compared.
 struct Metrics {
   std::size_t pixels = 0;             ///< Compared.
   std::size_t excluded = 0;           ///< Left out, because A or B is NaN or infinite there.
@@ -33,15 +32,15 @@ struct Metrics {
   double mean_ratio = 0.0;            ///< mean_a / mean_b.
   double rmse = 0.0;                  ///< Root of the mean square of A - B.
   double relative_rmse = 0.0;         ///< rmse / mean_b.
-  /// relative_rmse without what B's own noise adds: the mean variance of B is taken from the mean
-  /// square.
+  /// relative_rmse without the contribution of B's own noise: the mean variance of B is subtracted
+  /// from the mean square.
   std::optional<double> noise_corrected_relative_rmse;
   /// Of luminance, over the same blocks as the squared errors.
   BlockRatios blocks;
   double relmse = 0.0;     ///< Mean of (A - B)^2 / (B^2 + kRelMseEpsilon).
-  double max_error = 0.0;  ///< The largest |A - B|: means hide spots.
+  double max_error = 0.0;  ///< The largest |A - B|: shows spots that means hide.
   double peak =
-      1.0;  ///< What PSNR calls white: 1, or the 99.9th percentile of B if that is linear radiance.
+      1.0;  ///< White for PSNR: 1, or the 99.9th percentile of B if that is linear radiance.
   double psnr_db = 0.0;   ///< 20 log10(peak / rmse); infinite for equal images.
   double exposure = 1.0;  ///< Factor that makes linear radiance displayable for ssim and flip; 1
                           ///< for display images.
@@ -60,8 +59,8 @@ inline constexpr double kRelMseEpsilon = 0.01;
 Expected<Metrics> compare_images(const Image& a, const Image& b,
                                  const MetricsOptions& options = {});
 
-/// A and B as metrics see them: one to three channels each, as many in both, A scaled, pixels that
-/// are not finite in either zeroed in both.
+/// A and B prepared for metrics: the same number of channels, one to three; A is scaled; pixels
+/// that are not finite in either are zero in both.
 struct ImagePair {
   Image a, b;
   std::vector<char> valid;  ///< Per pixel: 1 where both are finite.

@@ -13,7 +13,7 @@ namespace {
 /// Sec. III-C: an 11x11 window of standard deviation 1.5 pixels.
 constexpr int kWindowRadius = 5;
 constexpr float kWindowSigma = 1.5f;
-/// Sec. III-C: C1 = (K1 L)^2 and C2 = (K2 L)^2 keep flat and dark windows from dividing by 0; the
+/// Sec. III-C: C1 = (K1 L)^2 and C2 = (K2 L)^2 avoid a division by 0 in flat and dark windows; the
 /// range L is 1.
 constexpr float kC1 = 0.01f * 0.01f;
 constexpr float kC2 = 0.03f * 0.03f;

@@ -39,7 +39,7 @@ Image display_image(const Image& linear, ToneMap tone_map, float exposure_stops)
 
 float radiance_of_colors(ToneMap tone_map, float exposure_stops) {
   constexpr float kMidGrey = 0.18f;
-  // Curves rise, and none shows mid-grey as darker than half of it or brighter than twice
+  // Bisect: curves are increasing, and all of them map mid-grey to between half and twice its value
   float low = 0.5f * kMidGrey, high = 2.0f * kMidGrey;
   constexpr int kHalvings = 24;  // bits of a float
   for (int i = 0; i < kHalvings; ++i) {

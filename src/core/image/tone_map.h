@@ -19,8 +19,8 @@ std::optional<ToneMap> tone_map_from_name(std::string_view name);
 /// (grey; the second is dropped), a fourth (alpha) is clamped and kept. NaN shows as black.
 Image display_image(const Image& linear, ToneMap tone_map, float exposure_stops);
 
-/// What colours are multiplied with so that, as radiance, a display shows them about as they are at
-/// that exposure: mid-grey exactly, others as the curve bends them. Within 1e-10 to 1e10.
+/// The factor by which colours become radiance that a display shows about unchanged at that
+/// exposure: exact for mid-grey, other colours follow the curve. Within 1e-10 to 1e10.
 float radiance_of_colors(ToneMap tone_map, float exposure_stops);
 
 }  // namespace lambent

@@ -20,7 +20,7 @@ namespace {
 
 using Target = Channel::Target;
 
-/// What a list of the rig is driven in: one bit a target.
+/// The properties of a list of the rig that animations drive: one bit per target.
 class Driven {
  public:
   Driven(const std::vector<Animation>& animations, Target first, Target last, std::size_t count)
@@ -45,7 +45,7 @@ glm::vec3 not_negative(const glm::vec3& v) {
   return glm::max(v, glm::vec3(0.0f));
 }
 
-/// Poses a scene. The rig's copy holds the values of the moment in place of those at rest.
+/// Poses a scene. The copies of the rig's lists hold the current values in place of those at rest.
 class Pose {
  public:
   Pose(Scene& scene, int animation, float time_s) : scene_(scene), rig_(scene.rig) {
@@ -73,7 +73,7 @@ class Pose {
   void apply(const Channel& channel, float time_s) {
     std::vector<float> value(static_cast<std::size_t>(channel.curve.components));
     evaluate(channel.curve, time_s, channel.target == Target::node_rotation, value.data());
-    // Splines may leave the numbers between finite keys
+    // Splines may overflow between finite keys
     if (!std::all_of(value.begin(), value.end(), [](float v) { return std::isfinite(v); })) return;
     const auto i = static_cast<std::size_t>(channel.index);
     const auto vec3 = [&value] { return glm::vec3(value[0], value[1], value[2]); };
@@ -129,7 +129,8 @@ class Pose {
     }
   }
 
-  /// Nodes that some animation moves, themselves or with a parent, and where all nodes are.
+  /// Finds the nodes that some animation moves, directly or through a parent, and all nodes'
+  /// transforms.
   void find_moving_nodes() {
     const Driven driven(scene_.animations, Target::node_translation, Target::node_scale,
                         nodes_.size());

@@ -10,7 +10,7 @@
 namespace lambent {
 namespace {
 
-// Of the cosine between two rotations: nearer to 1 than this, the arc is a line, and its sine too
+// If the cosine between two rotations is above this, the arc is nearly a line, and its sine is too
 // small to divide by.
 constexpr float kStraightArc = 0.9995f;
 

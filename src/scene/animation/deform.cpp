@@ -15,7 +15,7 @@
 namespace lambent {
 namespace {
 
-// Vertices a task bends: some tens of microseconds.
+// Vertices per task, which then takes some tens of microseconds.
 constexpr std::size_t kVerticesATask = 4096;
 
 /// The transform of a vertex: the mean of its joints', by weight.
@@ -40,7 +40,7 @@ void displace(const std::vector<glm::vec3>& offsets, float weight, std::size_t v
   for (int k = 0; k < 3; ++k) value[k] += weight * offsets[vertex][k];
 }
 
-/// Bends the vertices from `begin` to `end` into `bent`, whose attributes have the right lengths.
+/// Deforms the vertices from `begin` to `end` into `bent`, whose attributes have the right lengths.
 void bend_vertices(const RigMesh& rig, std::span<const float> morph_weights,
                    std::span<const glm::mat4> world_from_bind, std::size_t begin, std::size_t end,
                    Mesh& bent) {
@@ -68,7 +68,7 @@ void bend_vertices(const RigMesh& rig, std::span<const float> morph_weights,
   }
 }
 
-/// Whether a bent mesh is within the range of coordinates, wherever it stands.
+/// Whether all instances of a deformed mesh are within the range of coordinates.
 bool stays_in_reach(const Scene& scene, const Mesh& bent, std::span<const int> instances) {
   const auto near = [](const glm::vec3& p) { return is_in_reach(p); };
   if (!std::all_of(bent.positions.begin(), bent.positions.end(), near)) return false;
@@ -78,7 +78,7 @@ bool stays_in_reach(const Scene& scene, const Mesh& bent, std::span<const int> i
   });
 }
 
-/// Scales normals to unit length; those without direction stay as they were.
+/// Scales normals to unit length; those without direction get their value from `before`.
 void repair_bent_normals(const std::vector<glm::vec3>& before, Mesh& bent) {
   for (std::size_t v = 0; v < bent.normals.size(); ++v) {
     // Shorter or longer vectors cannot be scaled to unit length in float arithmetic
@@ -88,7 +88,7 @@ void repair_bent_normals(const std::vector<glm::vec3>& before, Mesh& bent) {
   }
 }
 
-/// Normals of triangles, each of which has vertices of its own.
+/// Sets the geometric normals of triangles; no triangles share vertices.
 void flatten_normals(Mesh& bent) {
   for (const glm::uvec3& t : bent.triangles) {
     const glm::vec3 normal = glm::cross(bent.positions[t.y] - bent.positions[t.x],
@@ -97,8 +97,8 @@ void flatten_normals(Mesh& bent) {
   }
 }
 
-/// Tangents that no file gave. Where the shape asks for vertices that it did not have at rest, the
-/// old tangents have to do.
+/// Recomputes tangents that were not in the file. If this would need vertices that the mesh did not
+/// have at rest, the old tangents stay.
 void remake_tangents(int uv_set, Mesh& bent) {
   if (bent.uvs[uv_set].empty()) return;
   Mesh remade = bent;
@@ -121,7 +121,7 @@ void bend(Scene& scene, const RigMesh& rig, std::span<const float> morph_weights
   parallel_chunks(rig.positions.size(), kVerticesATask, [&](std::size_t begin, std::size_t end) {
     bend_vertices(rig, morph_weights, world_from_bind, begin, end, bent);
   });
-  // A pose that leaves the range of coordinates is left out
+  // Skip a pose that leaves the range of coordinates
   if (!stays_in_reach(scene, bent, instances)) return;
 
   if (rig.normals.empty()) flatten_normals(bent);

@@ -11,14 +11,14 @@
 namespace lambent {
 namespace {
 
-// Size of what was scaled to nothing: rays miss it, and its inverse is a number.
+// Scale that replaces a scale of 0: rays miss the mesh, and the inverse is finite.
 constexpr float kSpeck = 1e-6f;
 
-// Things thinner than this share of their largest extent count as flat: in 32-bit arithmetic their
-// transform's inverse is all rounding.
+// Transforms whose thickness is below this share of their largest extent count as flat: their
+// inverse would consist of rounding errors in 32-bit arithmetic.
 constexpr double kFlat = 1e-6;
-// Thickness that flat things get, as a share of their largest extent: it is seldom a pixel, and the
-// inverse is right to a thousandth.
+// Thickness that flat transforms get, as a share of their largest extent: it is seldom as large as
+// a pixel, and the inverse is accurate to a thousandth.
 constexpr double kThickness = 1e-4;
 
 // Scaled to unit length in double, where no finite float vector over- or underflows.
@@ -102,7 +102,7 @@ std::optional<glm::mat4> drawable(const glm::mat4& world_from_object) {
   if (!finite(world_from_object) || !(scale >= kMinScale && scale <= kMaxScale)) {
     return std::nullopt;
   }
-  // Compute the areas of the images of the unit square's faces, and the volume of the cube's
+  // Compute the areas of the images of the unit cube's faces, and the volume of its image
   const glm::dmat3 m = glm::dmat3(world_from_object) / static_cast<double>(scale);
   const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
                              glm::cross(m[0], m[1]));
@@ -113,8 +113,9 @@ std::optional<glm::mat4> drawable(const glm::mat4& world_from_object) {
   if (area < kFlat) return std::nullopt;
   if (std::abs(volume) >= kFlat * area) return world_from_object;
 
-  // The cofactors of a flat transform are the plane's normal times the direction that it loses:
-  // along both it is stretched, to the side on which it mirrors or does not
+  // The cofactors of a flat transform are the outer product of the plane's normal and of the
+  // direction that is lost. Adding their multiple gives that direction a thickness along the
+  // normal; its sign preserves the handedness
   const glm::dmat3 thickness = cofactors * (std::copysign(kThickness, volume) * scale / area);
   glm::mat4 thickened = world_from_object;
   for (int axis = 0; axis < 3; ++axis) {
@@ -131,7 +132,7 @@ glm::mat4 drawable_or_speck(const glm::mat4& world_from_object, const Bounds& me
   glm::mat4 speck(kSpeck);
   const glm::vec3 place(world_from_object[3]);
   speck[3] = glm::vec4(is_in_reach(place) ? place : glm::vec3(0.0f), 1.0f);
-  // The mesh itself may reach so far that its speck at the edge would leave the range
+  // The mesh itself may be so large that even the shrunken one would leave the range
   if (!stays_in_reach(speck, mesh)) speck[3] = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
   return speck;
 }

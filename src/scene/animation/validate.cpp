@@ -30,7 +30,8 @@ bool finite(const glm::dmat4& m) {
   return true;
 }
 
-/// How many entries of the rig a target can mean, and how many numbers it has; 0: any.
+/// The number of entries of the rig to which a target can refer, and its number of components; 0:
+/// any.
 struct Shape {
   std::size_t entries;
   int components;
@@ -95,7 +96,7 @@ const char* flaw_of(const RigSkin& skin, std::size_t nodes) {
   return nullptr;
 }
 
-/// Checks each entry of a list of the rig: `flaw` of it, or null.
+/// Checks each entry of a list of the rig. `flaw` returns the flaw of an entry, or null.
 template <class T, class Flaw>
 Expected<void> check(const Scene& scene, const char* name, const std::vector<T>& entries,
                      Flaw flaw) {

@@ -12,18 +12,18 @@
 namespace lambent {
 namespace {
 
-// Blocks of a large texture are this wide and high [texels]: the table takes half a byte a texel.
+// Blocks of a large texture are this wide and high [texels]: the table takes half a byte per texel.
 constexpr int kLargeBlock = 4;
 // Textures of up to this many texels have blocks of a single texel: the table takes 2 MB at most,
-// and boxes hold no more than what a lookup can touch.
+// and boxes contain only texels that a lookup can touch.
 constexpr int kMostSingleTexels = 512 * 512;
 // There are this many steps of luminance between black and the brightest texel: sums of 2^40 texels
 // stay exact in 64 bits.
 constexpr float kSteps = 65535.0f;
 // A bilinear lookup in a triangle reads texels up to this far beyond it [texels].
 constexpr float kFilterRadius = 1.0f;
-// A piece is halved again only if it shows at least this many blocks of texels along its longer
-// side: its halves then show twice what the filter's radius adds to the box around them.
+// A piece is halved again only if it covers at least this many blocks of texels along its longer
+// side: its halves then cover twice what the filter's radius adds to the box around them.
 constexpr int kLeastHalved = 8;
 
 }  // namespace
@@ -45,8 +45,7 @@ EmissionMap::EmissionMap(const Scene& scene, const Material& material) {
   unit_ = constant_ / kSteps;
   sums_.assign(static_cast<std::size_t>(columns_ + 1) * (rows_ + 1), 0);
 
-  // Compute the sum of each block, every texel rounded up so that none that emits counts for
-  // nothing
+  // Compute the sum of each block, with every texel rounded up so that none that emits counts as 0
   const ByteDecoding& decode = texture.srgb ? srgb_byte_decoding() : linear_byte_decoding();
   const std::size_t stride = columns_ + 1;
   for (int y = 0; y < height_; ++y) {
@@ -88,7 +87,7 @@ EmissionMap::WrappedRange EmissionMap::blocks(float low, float high, int texels,
   if (wrap != Wrap::repeat || !(last - first < size)) return all;
   if (first < 0.0f) first += size;
   if (last >= size) last -= size;
-  // Rounding may have brought one of them to the edge itself
+  // Rounding may have moved one of them onto the edge
   const int begin = std::clamp(static_cast<int>(first), 0, texels - 1) / block_;
   const int end = std::clamp(static_cast<int>(last), 0, texels - 1) / block_ + 1;
   if (end >= begin) return all;
@@ -104,7 +103,7 @@ std::uint64_t EmissionMap::box_sum(BlockRange x, BlockRange y) const {
 float EmissionMap::box_mean(const WrappedRange& x, const WrappedRange& y) const {
   const std::uint64_t sum = box_sum(x.range, y.range) + box_sum(x.rest, y.range) +
                             box_sum(x.range, y.rest) + box_sum(x.rest, y.rest);
-  // Blocks at the far edges may be cut off
+  // Blocks at the far edges may be incomplete
   const auto texels = [&](BlockRange range, int size) {
     return std::min(range.last * block_, size) - range.first * block_;
   };

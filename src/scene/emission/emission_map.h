@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How bright an emissive texture is in any place, for lights to be drawn by their power.
+// The mean brightness of any part of an emissive texture, so that lights can be drawn by their
+// power.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +12,17 @@
 
 namespace lambent {
 
-/// Corners of a triangle, or of a piece of one, in the texture that it emits through.
+/// Texture coordinates of the corners of a triangle, or of a piece of one, in its emissive texture.
 struct UvTriangle {
   glm::vec2 a, b, c;
 };
 
-/// The emitted luminance of a material, summed over blocks of texels so that any box's mean is
-/// found at once. Based on: Crow, "Summed-Area Tables for Texture Mapping", SIGGRAPH 1984.
+/// A summed-area table of a material's emitted luminance over blocks of texels, from which the mean
+/// over any box is found in constant time. Based on: Crow, "Summed-Area Tables for Texture
+/// Mapping", SIGGRAPH 1984.
 class EmissionMap {
  public:
-  /// Reads the texture that the material emits through, if it emits and has one.
+  /// Reads the material's emissive texture, if it emits and has one.
   EmissionMap(const Scene& scene, const Material& material);
 
   /// Mean luminance [W/(m^2 sr)] of the box around the triangle's texture coordinates, without
@@ -30,11 +32,11 @@ class EmissionMap {
   /// Mean luminance [W/(m^2 sr)] of the box around a piece of a triangle, as above.
   float mean_luminance(const UvTriangle& piece) const;
 
-  /// Returns where a triangle reads the texture, or nothing if it emits the same all over.
+  /// Returns the texture coordinates of a triangle, or nothing if it emits uniformly.
   std::optional<UvTriangle> uvs_of(const Mesh& mesh, std::uint32_t triangle) const;
 
-  /// Returns how often a piece of a triangle can be halved and still show more of the texture than
-  /// the box around it adds.
+  /// Returns how often a piece of a triangle can be halved while it still covers more of the
+  /// texture than the filter's radius adds to the box around it.
   int useful_halvings(const UvTriangle& piece) const;
 
  private:
@@ -42,8 +44,8 @@ class EmissionMap {
   struct BlockRange {
     int first, last;
   };
-  /// The blocks of an interval of texture coordinates. One that crosses an edge of the texture goes
-  /// on from the opposite edge: the blocks there are the `rest`.
+  /// The blocks of an interval of texture coordinates. One that crosses an edge of the texture
+  /// continues from the opposite edge; the blocks there are the `rest`.
   struct WrappedRange {
     BlockRange range, rest;
   };
@@ -51,8 +53,8 @@ class EmissionMap {
   std::uint64_t box_sum(BlockRange x, BlockRange y) const;
   float box_mean(const WrappedRange& x, const WrappedRange& y) const;
 
-  float constant_ = 0.0f;  // luminance of the material but for its texture [W/(m^2 sr)]
-  float unit_ = 0.0f;      // luminance that one step of the sums stands for [W/(m^2 sr)]
+  float constant_ = 0.0f;  // luminance of the material without its texture [W/(m^2 sr)]
+  float unit_ = 0.0f;      // luminance of one step of the sums [W/(m^2 sr)]
   TextureView view_;
   int width_ = 0, height_ = 0;  // [texels]
   int block_ = 1;               // width and height of a block [texels]

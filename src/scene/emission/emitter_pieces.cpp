@@ -6,16 +6,16 @@
 namespace lambent {
 namespace {
 
-// Relative variance of luminance among a triangle's pieces up to which it stays whole: a standard
-// deviation of a quarter of the mean adds less noise to a sample than distance, cosine and shadows
-// do, and every piece makes the light tree deeper.
+// Relative variance of luminance among a triangle's pieces up to which it is not divided: a
+// standard deviation of a quarter of the mean adds less noise to a sample than distance, cosine and
+// shadows do, and every piece makes the light tree deeper.
 constexpr double kEven = 0.0625;
 
-// Links to divisions are marked; kDark is marked, too, and asked first.
+// This bit marks links to divisions. kDark has it, too, so test for kDark first.
 constexpr std::uint32_t kDivided = 0x80000000u;
 
-/// One of the four pieces that halving all edges of a piece makes, by its corner and size in that
-/// one. The fourth, in the middle, points the other way.
+/// One of the four pieces that result from halving all edges of a piece, by its corner and size
+/// relative to that one. The fourth, in the middle, is reversed.
 struct Quarter {
   glm::vec2 corner;
   float size;
@@ -40,7 +40,7 @@ UvTriangle uvs_of_piece(const UvTriangle& uvs, const EmitterPiece& piece) {
 
 }  // namespace
 
-/// Sums over the smallest pieces that a piece was divided into, and the link to what it became.
+/// Sums over the smallest pieces into which a piece was divided, and the link to the result.
 struct EmitterPieces::Measured {
   double sum = 0.0, squares = 0.0;  // of mean luminances
   double count = 0.0;
@@ -51,13 +51,13 @@ std::uint32_t EmitterPieces::divide(const EmissionMap& map, const UvTriangle& tr
                                     int halvings, std::vector<EmitterPiece>& pieces) {
   const std::size_t first = pieces.size();
   const std::uint32_t link = measure(map, triangle, {}, halvings, pieces).link;
-  // A triangle that stays whole has the mean that it has undivided
+  // A triangle that was not divided gets the mean over the whole of it
   if (link == first) pieces.back().mean_luminance = map.mean_luminance(triangle);
   return link;
 }
 
-// Divides down to the smallest pieces, for a pattern may be even at every larger scale, and joins
-// again what turns out to be even.
+// Divides down to the smallest pieces, since a pattern may be even at every larger scale, and
+// merges pieces that turn out to be even.
 EmitterPieces::Measured EmitterPieces::measure(const EmissionMap& map, const UvTriangle& uvs,
                                                EmitterPiece piece, int halvings,
                                                std::vector<EmitterPiece>& pieces) {

@@ -23,7 +23,7 @@ namespace {
 using Target = Channel::Target;
 constexpr const char* kLights = "/extensions/KHR_lights_punctual/lights/";
 
-/// The index after `prefix`, and the rest of the pointer, if it starts so.
+/// The index after `prefix`, and the rest of the pointer, if it starts with the prefix.
 struct Match {
   std::size_t index;
   std::string rest;
@@ -39,7 +39,7 @@ std::optional<Match> match(const std::string& pointer, const char* prefix) {
   return found;
 }
 
-/// A property that can be driven, and how many numbers it has; 0: as many as there are targets.
+/// A property that can be driven, and its number of components; 0: the number of morph targets.
 struct Property {
   const char* name;
   Target target;
@@ -126,7 +126,7 @@ void MotionImporter::read(std::size_t animation, const ChannelSource& source) {
   drop("what they drive is not supported");
 }
 
-/// Reads keys; null, or what is wrong with them.
+/// Reads keys. Returns null, or a description of the error.
 const char* MotionImporter::read_curve(const ChannelSource& source, Driver& driver) const {
   Curve& curve = driver.channel.curve;
   if (driver.list == List::nodes && curve.components > 0 &&
@@ -221,7 +221,7 @@ void MotionImporter::add_camera(int node, int camera) {
 
 int MotionImporter::rig_skin(int skin, const std::vector<glm::dmat4>& joint_from_bind,
                              const glm::dvec3& centre) {
-  // A mesh whose vertices were moved has a bind pose of its own
+  // A mesh whose vertices were recentred needs a skin with a bind pose of its own
   const bool shared = centre == glm::dvec3(0.0);
   if (shared && rig_skin_of_[skin] >= 0) return rig_skin_of_[skin];
   const int index = static_cast<int>(rig_.skins.size());
@@ -246,7 +246,7 @@ void MotionImporter::add_mesh(int node, RigMesh mesh,
 }
 
 void MotionImporter::add_nodes() {
-  // The parent of all others brings them from the file's coordinates to the scene's
+  // Add a root node that transforms the file's coordinates to the scene's
   if (is_moved()) rig_.nodes.emplace_back().translation = -tree_.origin;
   for (const int index : tree_.order) {
     const tinygltf::Node& from = document_.model.nodes[index];
@@ -293,7 +293,7 @@ void MotionImporter::add_materials(const Scene& scene) {
   }
 }
 
-/// Adds a channel for each thing of the scene that stands for what the file drives.
+/// Adds a channel for each object of the scene that was made from the driven object of the file.
 void MotionImporter::add_channel(const Driver& driver, Animation& animation) const {
   const auto add = [&](std::size_t index) {
     animation.channels.push_back(driver.channel);

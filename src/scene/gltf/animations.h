@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a file's animations to curves and a rig.
+// Import of a file's animations to curves and a rig.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,33 +10,32 @@
 
 namespace lambent::gltf {
 
-/// Gathers what animations move while a scene is imported, and makes its rig in the end.
+/// Collects the objects that animations move while a scene is imported, and finally makes its rig.
 class MotionImporter {
  public:
-  /// Reads the curves; channels that make no sense are dropped with a warning. The tree must
-  /// outlive it.
+  /// Reads the curves; invalid channels are dropped with a warning. The tree must outlive it.
   MotionImporter(Document& document, const NodeTree& tree);
 
-  /// Whether the node moves in the world.
+  /// Whether the node moves, directly or through a parent.
   bool moves(int node) const { return moves_[node]; }
-  /// Whether the vertices of a mesh in this node move by themselves: weights or joints do.
+  /// Whether the mesh in this node is deformed, by animated weights or joints.
   bool bends(int node) const;
 
   void add_instance(int node, int instance, const glm::dmat4& node_from_object);
   /// `source`: index into the file's lights.
   void add_light(int node, int source, int light);
   void add_camera(int node, int camera);
-  /// `mesh`: all but its node and skin; `joint_from_bind` of the skin, where it has one; `centre`
-  /// as of ImportedMesh.
+  /// `mesh`: complete except for its node and skin; `joint_from_bind`: that of the skin, if it has
+  /// one; `centre`: see ImportedMesh.
   void add_mesh(int node, RigMesh mesh, const std::vector<glm::dmat4>& joint_from_bind,
                 const glm::dvec3& centre);
 
-  /// Adds animations and rig to the scene whose parts were told. Nothing where nothing moves.
+  /// Adds animations and rig to the scene whose parts were added. Adds nothing if nothing moves.
   void finish(Scene& scene);
 
  private:
   enum class List { nodes, meshes, materials, lights, cameras };
-  /// A channel, its target still by the file's index.
+  /// A channel whose target is an index of the file.
   struct Driver {
     std::size_t animation;
     List list;
@@ -57,10 +56,11 @@ class MotionImporter {
   Document& document_;
   const NodeTree& tree_;
   std::vector<Driver> drivers_;
-  std::vector<int> rig_node_of_;                     // by the file's node
-  std::vector<bool> moves_, weighted_;               // by the file's node
-  std::vector<int> rig_skin_of_;                     // by the file's skin; -1: not yet
-  std::vector<int> light_sources_, camera_sources_;  // of the rig's, by the file's index
+  std::vector<int> rig_node_of_;        // by the file's node
+  std::vector<bool> moves_, weighted_;  // by the file's node
+  std::vector<int> rig_skin_of_;        // by the file's skin; -1: not yet
+  // indices in the file of the rig's lights and cameras
+  std::vector<int> light_sources_, camera_sources_;
   Rig rig_;
 };
 

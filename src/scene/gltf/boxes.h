@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boxes that a file's author asks for in the extras of nodes: volumes of probes, and fog.
+// Boxes in the extras of nodes: probe volumes and fog.
 #pragma once
 
 #include <cmath>
@@ -10,14 +10,15 @@
 
 namespace lambent::gltf {
 
-/// A number within bounds, or false.
+/// Reads a number within bounds; returns false if there is none.
 inline bool read_number(const nlohmann::json& value, double low, double high, double& number) {
   if (!value.is_number()) return false;
   number = value.get<double>();
   return number >= low && number <= high;
 }
 
-/// Three numbers within bounds, whole ones where the vector holds such, or false.
+/// Reads three numbers within bounds, which must be whole for vectors of integers; returns false if
+/// there are none.
 template <class Vector>
 bool read_vector(const nlohmann::json& value, double low, double high, Vector& vector) {
   if (!value.is_array() || value.size() != 3) return false;
@@ -31,8 +32,8 @@ bool read_vector(const nlohmann::json& value, double low, double high, Vector& v
   return true;
 }
 
-/// Puts a box of some size where its node stands, turned and scaled as that is. Null where that
-/// goes, else why not, as a sentence.
+/// Places a box of a size by the transform of its node. Returns null, or the reason why that is not
+/// possible.
 const char* place_box(const glm::mat4& world_from_node, glm::vec3& centre, glm::vec3& size,
                       glm::mat3& axes);
 

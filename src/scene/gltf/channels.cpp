@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-/// An index that is a member of an object, if it is one into an array of that size.
+/// A member of an object, if it is a valid index into an array of that size.
 std::optional<int> index_of(const json& object, const char* key, std::size_t size) {
   const auto member = object.find(key);
   if (member == object.end() || !member->is_number_unsigned()) return std::nullopt;
@@ -30,7 +30,7 @@ std::size_t size_of(const json& root, const char* key) {
   return list != root.end() && list->is_array() ? list->size() : 0;
 }
 
-/// Why a channel is of no use; null: it is read into `channel`.
+/// Reads a channel. Returns null, or the reason why it is dropped.
 const char* read_channel(const json& root, const json& samplers, const json& source,
                          ChannelSource& channel) {
   if (!source.is_object()) return "they are not objects";

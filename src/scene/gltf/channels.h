@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the JSON says of animations and in the extras of nodes. Nothing here makes a file fail: what
-// cannot be understood is dropped with a warning.
+// Reads animations and the extras of nodes from the JSON. No errors: invalid parts are dropped with
+// a warning.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Morph targets and skins, applied to vertices once.
+// Applies morph targets and skins to vertices on import.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,7 +9,7 @@
 
 namespace lambent::gltf {
 
-/// One set of four joints and their weights a vertex.
+/// One set of four joints and their weights per vertex.
 struct SkinInfluences {
   Elements joints;
   Elements weights;

@@ -15,14 +15,14 @@ namespace {
 
 using nlohmann::json;
 
-// A GLB opens with its magic, version and length, and the length and type of its JSON chunk (glTF
+// A GLB begins with its magic, version and length, and the length and type of its JSON chunk (glTF
 // 2.0 specification, sec. 4.4).
 constexpr std::size_t kGlbOpening = 20;
 constexpr std::size_t kJsonLengthAt = 12;
-// More is no scene that load_scene would read.
+// Largest JSON; load_scene refuses larger ones.
 constexpr std::uintmax_t kMaxJsonBytes = std::uintmax_t{1} << 30;
 
-/// The JSON of a .gltf or .glb, or what is there of it.
+/// The JSON of a .gltf or .glb, truncated if the file is.
 std::string json_text(const std::string& path) {
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(path, error);

@@ -6,8 +6,8 @@
 
 namespace lambent {
 
-/// Paths of the files that a .gltf or .glb refers to: buffers and images that it does not hold
-/// itself. Reads its JSON alone. Empty where the file cannot be read: load_scene tells why.
+/// Paths of the files to which a .gltf or .glb refers: buffers and images that it does not contain.
+/// Reads only its JSON. Empty where the file cannot be read; load_scene then reports the cause.
 std::vector<std::string> files_of_gltf(const std::string& path);
 
 }  // namespace lambent

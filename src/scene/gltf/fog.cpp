@@ -11,7 +11,7 @@ using json = nlohmann::json;
 
 constexpr const char* kKey = "lambent_fog";
 
-/// One number for all colours, or three.
+/// Reads one number for all channels, or three.
 bool read_albedo(const json& value, glm::vec3& albedo) {
   double number = 0.0;
   if (read_number(value, 0.0, 1.0, number)) {
@@ -21,7 +21,7 @@ bool read_albedo(const json& value, glm::vec3& albedo) {
   return read_vector(value, 0.0, 1.0, albedo);
 }
 
-/// Null where all went well, else what is wrong.
+/// Returns null, or a description of the error.
 const char* read_fog(const json& extras, FogVolume& fog) {
   if (!extras.is_object()) return "is not an object";
   for (const auto& [key, value] : extras.items()) {
@@ -36,7 +36,7 @@ const char* read_fog(const json& extras, FogVolume& fog) {
     } else if (key == "albedo") {
       if (!read_albedo(value, fog.albedo)) return "has no numbers within 0 to 1 as albedo";
     } else if (key == "anisotropy") {
-      // In float, as the limit is
+      // In float, like the limit
       const bool is_one = read_number(value, -1.0, 1.0, number);
       fog.anisotropy = static_cast<float>(number);
       if (!is_one || std::abs(fog.anisotropy) > kMaxFogAnisotropy) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a checked glTF document to a Scene.
+// Converts a checked glTF document to a Scene.
 #include "scene/gltf/import.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ namespace lambent {
 namespace gltf {
 namespace {
 
-// More than any renderable scene; a small file can ask for more by instancing instances.
+// More than in any renderable scene; a small file can contain more by nested instancing.
 constexpr std::size_t kMaxInstances = std::size_t{1} << 22;
 
 class Importer {
@@ -51,8 +51,9 @@ class Importer {
   }
 
  private:
-  // All that nodes hold. Where that is known to be far from the origin, it is imported again about
-  // an origin in its midst, from the numbers of the file: their last bits count.
+  // Imports the contents of nodes. If they are far from the origin, they are imported again
+  // relative to an origin near their centre, from the file's numbers, whose last bits would
+  // otherwise be lost.
   Expected<void> import_nodes_near_origin(NodeTree& tree) {
     const std::vector<std::string> warnings = document_.warnings;
     const std::vector<Repair> repairs = document_.repairs;
@@ -113,7 +114,7 @@ class Importer {
                          bends || motion_->moves(index));
   }
 
-  // The bind pose of a skin's joints; none where there is no skin.
+  // The bind pose of a skin's joints; empty if there is no skin.
   Expected<std::vector<glm::dmat4>> read_skin(int index) {
     std::vector<glm::dmat4> joint_from_bind;
     if (index < 0) return joint_from_bind;
@@ -152,7 +153,7 @@ class Importer {
     return deformation;
   }
 
-  // Meshes that no other node shares, with what bends them.
+  // Imports meshes for this node alone, with the rig that deforms them.
   Expected<std::vector<int>> import_bending_mesh(int node, const Deformation& deformation,
                                                  const std::vector<glm::dmat4>& joint_from_bind) {
     std::vector<RigMesh> rigs;
@@ -164,7 +165,7 @@ class Importer {
     return std::move(meshes);
   }
 
-  // The scene's meshes for a glTF mesh; made once unless it is bent.
+  // The scene's meshes for a glTF mesh; imported once, unless it is deformed.
   Expected<std::vector<int>> shared_mesh(int mesh, const Deformation& deformation) {
     if (!deformation.empty()) return import_mesh(mesh, deformation, nullptr);
     std::optional<std::vector<int>>& shared = meshes_[mesh];
@@ -210,7 +211,7 @@ class Importer {
     }
   }
 
-  // Places meshes at `world_from_node` * `node_from_object`. `dynamic`: they are about to move.
+  // Places meshes at `world_from_node` * `node_from_object`. `dynamic`: they are expected to move.
   Expected<void> add_instances(const std::vector<int>& meshes, int node,
                                const glm::dmat4& world_from_node,
                                const glm::dmat4& node_from_object, bool dynamic) {
@@ -219,7 +220,7 @@ class Importer {
     if (largest_scale(unmoved) > kMaxScale) {
       return document_.fail_at(place, "the mesh is scaled by more than 1e10");
     }
-    // Joints have brought a skinned mesh from where its vertices stood to the world
+    // A skinned mesh is in world space already, where joints have placed its vertices
     const bool skinned = document_.model.nodes[node].skin >= 0;
     const auto node_from_mesh = [&](int mesh) {
       return skinned ? node_from_object : glm::translate(node_from_object, centres_[mesh]);
@@ -271,7 +272,7 @@ class Importer {
       Elements elements;
     };
     Attribute read[] = {{"TRANSLATION", 3, {}}, {"ROTATION", 4, {}}, {"SCALE", 3, {}}};
-    // Custom attributes, which mean nothing to us, count instances too
+    // Custom attributes, which are not read, determine the number of instances, too
     std::size_t count = 0;
     for (const std::string& name : attributes.Keys()) {
       const int accessor = attributes.Get(name).GetNumberAsInt();
@@ -347,14 +348,14 @@ class Importer {
   Document& document_;
   const LoadOptions& options_;
   std::vector<std::optional<std::vector<int>>> meshes_;  // by glTF mesh; none: not yet imported
-  bool recentre_ = false;            // meshes whose vertices are far from their origin
+  bool recentre_ = false;            // whether to move vertices far from their mesh's origin
   std::vector<glm::dvec3> centres_;  // by mesh of the scene: see ImportedMesh
-  std::vector<Bounds> bounds_;       // likewise
+  std::vector<Bounds> bounds_;       // by mesh of the scene
   std::optional<MotionImporter> motion_;
   Scene scene_;
 };
 
-// The boundary behind which libraries may throw.
+// Catches the exceptions of libraries.
 Expected<Scene> import(ByteSpan bytes, const std::string& file, bool file_access,
                        const LoadOptions& options) {
   try {

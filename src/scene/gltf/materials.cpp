@@ -43,8 +43,7 @@ class MaterialReader {
     if (const auto* ior = find_extension(source_.extensions, "KHR_materials_ior")) {
       read_ior(*ior);
     }
-    // occlusionTexture is left out on purpose: ambient occlusion is what global illumination
-    // computes
+    // occlusionTexture is ignored on purpose, since global illumination computes occlusion
     return std::move(material_);
   }
 
@@ -100,7 +99,7 @@ class MaterialReader {
     document_.repaired("emissions were reduced to 1e10 W/(m^2 sr)", too_bright ? 1 : 0, place_);
     material_.emission = limited(emission, kMaxRadiance);
     LAMBENT_CHECK(take(source_.emissiveTexture, kColor, material_.emission_texture));
-    // A map restricts emission to lamps and screens: without it all of the surface would glow
+    // A map restricts emission to lamps and screens, so without it the whole surface would glow
     const bool lost = source_.emissiveTexture.index >= 0 && material_.emission_texture.texture < 0;
     if (lost) material_.emission = glm::vec3(0.0f);
     return {};
@@ -129,7 +128,7 @@ class MaterialReader {
     return take(*transmission, "transmissionTexture", kData, material_.transmission_texture);
   }
 
-  // How thick a volume is, rays find out; the factor tells volumes from panes.
+  // Rays determine the thickness of a volume; the factor only distinguishes volumes from panes.
   void read_volume() {
     const auto* volume = find_extension(source_.extensions, "KHR_materials_volume");
     if (!volume || number_or(*volume, "thicknessFactor", 0.0) <= 0.0) return;
@@ -140,7 +139,7 @@ class MaterialReader {
     bool limited = !(distance > 0.0);
     for (int k = 0; k < 3 && !limited; ++k) {
       const double left = color.Get(k).GetNumberAsDouble();
-      // Absorption of a color of 0 is infinite
+      // A color of 0 means infinite absorption
       const double absorption = left > 0.0 ? -std::log(std::min(left, 1.0)) / distance : kMaxFactor;
       material_.absorption[k] = static_cast<float>(std::min<double>(absorption, kMaxFactor));
     }
@@ -198,7 +197,7 @@ class MaterialReader {
   void read_ior(const tinygltf::Value& extension) {
     material_.ior = static_cast<float>(number_or(extension, "ior", material_.ior));
     if (material_.ior >= 1.0f) return;
-    // 0 asks for F0 = 1 "for backwards compatibility", which no physical index gives
+    // 0 means F0 = 1 "for backwards compatibility", for which there is no physical index
     document_.repaired("indices of refraction below 1 were set to 1", 1, place_);
     material_.ior = 1.0f;
   }

@@ -36,7 +36,7 @@ class PrimitiveReader {
 
   const std::string& place() const { return place_; }
 
-  // An attribute with one element a vertex; without elements where the primitive lacks it.
+  // An attribute with one element per vertex; empty if the primitive lacks it.
   Expected<Elements> attribute(const std::string& name) const {
     Elements elements;
     if (draco_ && draco_->attributes.contains(name)) {
@@ -56,7 +56,7 @@ class PrimitiveReader {
     return elements;
   }
 
-  // The same, where elements must have one of two numbers of components.
+  // An attribute whose elements must have one of two numbers of components.
   Expected<Elements> attribute(const std::string& name, int components, int alternative) const {
     LAMBENT_TRY(elements, attribute(name));
     const bool fits = elements.components == components || elements.components == alternative;
@@ -71,10 +71,10 @@ class PrimitiveReader {
 
   void expect_vertices(std::size_t vertices) { vertices_ = vertices; }
 
-  // How indices make triangles. Draco streams hold triangles, also of what was a strip.
+  // The primitive's mode. Draco streams contain triangles, also for strips.
   int mode() const { return draco_ ? TINYGLTF_MODE_TRIANGLES : source_.mode; }
 
-  // The primitive's vertex indices in its own order: 0, 1, 2.. where it has none.
+  // The primitive's vertex indices; 0, 1, 2, ... if it has none.
   Expected<std::vector<std::uint32_t>> indices() const {
     if (draco_) return checked(draco_->indices, place_);
     const int accessor = document_->primitive_indices[mesh_][primitive_];
@@ -115,7 +115,7 @@ class PrimitiveReader {
   std::optional<DracoPrimitive> draco_;
 };
 
-// Specification, sec. 3.7.2.1: which vertices each triangle of a mode has.
+// Specification, sec. 3.7.2.1: the vertices of each triangle, by mode.
 std::vector<glm::uvec3> triangles_of(int mode, const std::vector<std::uint32_t>& v) {
   std::vector<glm::uvec3> triangles;
   if (v.size() < 3) return triangles;
@@ -175,8 +175,8 @@ Expected<void> read_vertices(PrimitiveReader& reader, Mesh& mesh) {
   return {};
 }
 
-// What vertices may hold beyond the ranges of limits.h: coordinates are an error, since nothing can
-// stand in for a place; texture coordinates become 0, as where there are none.
+// Handles numbers of vertices beyond the ranges of limits.h: coordinates are an error, since
+// nothing can replace a position; texture coordinates become 0, as if there were none.
 Expected<void> check_ranges(Document& document, const std::string& place, Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     if (is_in_reach(mesh.positions[i])) continue;
@@ -196,7 +196,7 @@ Expected<void> check_ranges(Document& document, const std::string& place, Mesh& 
   return {};
 }
 
-// Moves vertices that are far from the origin to it, and tells from where.
+// Moves vertices that are far from the origin to it, and returns the offset.
 glm::dvec3 move_to_origin(Mesh& mesh) {
   const glm::dvec3 centre = origin_of(mesh_bounds(mesh));
   if (centre == glm::dvec3(0.0)) return centre;
@@ -216,14 +216,14 @@ Expected<std::vector<SkinInfluences>> read_influences(const PrimitiveReader& rea
   return sets;
 }
 
-// What bends the vertices in other poses, for the vertices as the file has them.
+// Reads the data that deform the file's vertices in other poses.
 Expected<RigMesh> read_rig(const Document& document, const tinygltf::Primitive& source,
                            const Mesh& unbent, const std::vector<SkinInfluences>& sets,
                            std::size_t joints) {
   RigMesh rig;
   rig.positions = unbent.positions;
   rig.normals = unbent.normals;
-  // Stored tangents mean nothing without normals
+  // Stored tangents are undefined without normals
   if (!unbent.normals.empty()) rig.tangents = unbent.tangents;
   for (const auto& target : source.targets) {
     RigMesh::MorphTarget& made = rig.targets.emplace_back();
@@ -244,7 +244,7 @@ Expected<RigMesh> read_rig(const Document& document, const tinygltf::Primitive& 
   for (std::size_t v = 0; rig.influences > 0 && v < unbent.positions.size(); ++v) {
     for (const SkinInfluences& set : sets) {
       for (int k = 0; k < 4; ++k) {
-        // Without weight a joint need not exist
+        // A joint without weight need not exist
         const float joint = set.joints[v][k];
         const bool exists = joint >= 0.0f && joint < static_cast<float>(joints);
         rig.joints.push_back(exists ? static_cast<std::uint32_t>(joint) : 0u);
@@ -267,7 +267,7 @@ void gather(std::vector<T>& values, const VertexOrigins& origins, std::size_t a_
   values = std::move(gathered);
 }
 
-// Brings what bends the file's vertices to those that the mesh has come to have.
+// Converts the rig of the file's vertices to that of the repaired mesh's vertices.
 void follow_repairs(const VertexOrigins& origins, const Mesh& mesh, RigMesh& rig) {
   gather(rig.positions, origins);
   gather(rig.normals, origins);
@@ -286,7 +286,7 @@ void follow_repairs(const VertexOrigins& origins, const Mesh& mesh, RigMesh& rig
 void complete(Document& document, const std::string& place, int tangent_uv_set, Mesh& mesh,
               VertexOrigins& origins) {
   if (mesh.normals.empty()) {
-    // Stored tangents mean nothing without the normals they belong to (specification, sec. 3.7.2.1)
+    // Stored tangents are undefined without their normals (specification, sec. 3.7.2.1)
     mesh.tangents.clear();
     make_flat_normals(mesh, &origins);
   }

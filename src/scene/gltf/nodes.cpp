@@ -37,7 +37,7 @@ bool finite(const glm::mat4& m) {
   return true;
 }
 
-// The one parent of each node, or -1. Fails where a node has two.
+// The parent of each node, or -1. Fails where a node has two.
 Expected<std::vector<int>> find_parents(const Document& document) {
   const auto& nodes = document.model.nodes;
   std::vector<int> parents(nodes.size(), -1);
@@ -54,7 +54,8 @@ Expected<std::vector<int>> find_parents(const Document& document) {
   return parents;
 }
 
-// Appends a node and all below it, parents first. Iterative: depth costs no stack.
+// Appends a node and all of its descendants, parents first. Iterative, so that depth costs no
+// stack.
 void append_subtree(const Document& document, int root, std::vector<bool>& seen,
                     std::vector<int>& order) {
   std::vector<int> pending = {root};
@@ -80,8 +81,8 @@ Expected<int> chosen_scene(const Document& document, int scene) {
   return scene;
 }
 
-// The specification allows only nodes without parents as roots. One that has a parent still stands
-// where its parents put it, as if the scene named the whole of what is below it.
+// The specification allows only nodes without parents as roots. One that has a parent is
+// nevertheless placed by its parents, and imported with all of its descendants.
 std::vector<int> roots_of(Document& document, int scene, const std::vector<int>& parents) {
   if (scene >= 0) {
     const std::vector<int>& roots = document.model.scenes[scene].nodes;
@@ -108,7 +109,7 @@ Expected<NodeTree> build_node_tree(Document& document, int scene) {
   const std::size_t count = document.model.nodes.size();
   LAMBENT_TRY(parents, find_parents(document));
 
-  // Order the whole file, since a joint may stand outside of the scene that its mesh is in
+  // Order all nodes of the file, since a joint may be outside the scene that contains its mesh
   std::vector<bool> seen(count, false);
   NodeTree tree;
   std::vector<int>& order = tree.order;

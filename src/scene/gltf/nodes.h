@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The node hierarchy: which nodes a scene shows, and where they stand.
+// The node hierarchy: the nodes of a scene, and their transforms.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,11 +9,11 @@
 namespace lambent::gltf {
 
 struct NodeTree {
-  std::vector<glm::dmat4> world_from_node;  ///< One a node of the file; finite and affine.
-  glm::dvec3 origin{0.0};                   ///< Of that world, in the file's coordinates [m].
-  std::vector<int> order;                   ///< All nodes of the file, parents before children.
-  std::vector<int> parents;                 ///< Of each node of the file; -1: none.
-  int scene = -1;                           ///< The chosen scene; -1: the file has none.
+  std::vector<glm::dmat4> world_from_node;  ///< One per node of the file; finite and affine.
+  glm::dvec3 origin{0.0};    ///< Origin of that world, in the file's coordinates [m].
+  std::vector<int> order;    ///< All nodes of the file, parents before children.
+  std::vector<int> parents;  ///< Parent of each node of the file; -1: none.
+  int scene = -1;            ///< The chosen scene; -1: the file has none.
   std::vector<int> visible;  ///< Nodes of the chosen scene, parents before children, in file order.
 };
 
@@ -21,7 +21,7 @@ struct NodeTree {
 /// `scene` is an index, or -1 for the file's default.
 Expected<NodeTree> build_node_tree(Document& document, int scene);
 
-/// Moves the world so that its origin is here in the file's coordinates.
+/// Moves the world so that its origin is at `origin` in the file's coordinates.
 void move_origin(NodeTree& tree, const glm::dvec3& origin);
 
 }  // namespace lambent::gltf

@@ -12,13 +12,15 @@ namespace lambent::gltf {
 namespace {
 
 // Coordinates may be this many times as large as the scene. Rays then start less than a thousandth
-// of its size off its surfaces, since offset_ray_component goes by 256 roundings.
+// of its size off its surfaces, since offset_ray_component moves by 256 units in the last place.
 constexpr double kFarSizes = 32.0;
 
-// Coordinates beyond which a box cannot be told from a point: they have 24 bits [share].
+// Relative precision of coordinates, which have 24 bits: smaller boxes cannot be distinguished from
+// a point.
 constexpr double kRounding = 1e-7;
 
-// Rays may start this share of a scene's longest side off its surfaces: less than walls are thick.
+// Rays may start at most this share of a scene's longest side off its surfaces, less than the
+// thickness of walls.
 constexpr float kMaxRayOffset = 1e-2f;
 
 double largest(const glm::dvec3& v) {
@@ -45,14 +47,14 @@ glm::dvec3 origin_of(const Bounds& bounds) {
   if (bounds.empty()) return glm::dvec3(0.0);
   const double extent = extent_of(bounds), reach = reach_of(bounds);
   if (reach <= kFarSizes * extent) return glm::dvec3(0.0);
-  // A power of ten not above the size, so that the box holds the origin or is beside it
+  // A power of ten not above the size, so that the origin is in the box or close to it
   const double step = std::pow(10.0, std::floor(std::log10(std::max(extent, kRounding * reach))));
   const glm::dvec3 middle = 0.5 * (glm::dvec3(bounds.min) + glm::dvec3(bounds.max));
-  // Division where the step is below 1: a power of ten is exact if it is whole
+  // Use the inverse of a step below 1, since only whole powers of ten are exact
   const glm::dvec3 origin =
       step >= 1.0 ? glm::round(middle / step) * step
                   : glm::round(middle * std::round(1.0 / step)) / std::round(1.0 / step);
-  return origin + glm::dvec3(0.0);  // No -0, which people would read
+  return origin + glm::dvec3(0.0);  // replaces -0 by 0, since it is printed
 }
 
 bool is_rounded(const Scene& scene) {

@@ -12,7 +12,7 @@
 namespace lambent::gltf {
 namespace {
 
-// The image of a texture: WebP where there is one, else the plain one; -1: none that we can read.
+// The image of a texture: WebP if there is one, else the plain one; -1: none is supported.
 int image_of(const tinygltf::Texture& texture) {
   if (const auto* webp = find_extension(texture.extensions, "EXT_texture_webp")) {
     return integer_or(*webp, "source", -1);
@@ -64,10 +64,10 @@ Expected<Texture> decode_use(const Document& document, int image, bool srgb) {
   return texture;
 }
 
-// Things named one by one in a warning, few enough to be read; the rest is counted.
+// Maximum number of names listed in a warning; the rest is counted.
 constexpr std::size_t kNamed = 3;
 
-// The materials with a texture for which reads_texture(its index) is true, for people.
+// The materials that use a texture for which reads_texture(index) is true, for display.
 template <class Reads>
 std::string users_of(const std::vector<Material>& materials, Reads reads_texture) {
   std::size_t users = 0;
@@ -123,7 +123,7 @@ Expected<TextureView> TextureLibrary::view(int texture, int tex_coord,
     view.uv_set = 0;
   }
 
-  // Share the texture with an earlier use of the image as the same
+  // Share the texture with an earlier use of the image of the same kind
   const auto same = [image, srgb](const Use& use) {
     return use.image == image && use.srgb == srgb;
   };
@@ -166,7 +166,7 @@ void TextureLibrary::warn_of_missing(const std::vector<Expected<Texture>>& decod
   std::set<int> missing_images;
   std::string named;
   for (std::size_t i = 0; i < decoded.size(); ++i) {
-    // An image that is read as color and as data is one texture to people
+    // Report an image that is read as color and as data only once
     const int image = uses_[i].image;
     if (decoded[i] || !missing_images.insert(image).second) continue;
     if (missing_images.size() > kNamed) continue;

@@ -8,7 +8,7 @@
 
 namespace lambent::gltf {
 
-/// Collects which images materials use, and as what; then decodes each use once.
+/// Collects the uses of images by materials, as colour or data, and then decodes each use once.
 class TextureLibrary {
  public:
   explicit TextureLibrary(Document& document) : document_(&document) {}
@@ -16,13 +16,14 @@ class TextureLibrary {
   /// How a material reads a glTF texture. Uses of one image share a texture, but colour (`srgb`)
   /// and data do not. `texture`, `tex_coord` and `extensions` are those of a textureInfo; `place`
   /// is its material, for warnings. Empty, with a warning, where the texture has no image of a
-  /// format that is read.
+  /// supported format.
   Expected<TextureView> view(int texture, int tex_coord, const tinygltf::ExtensionMap& extensions,
                              bool srgb, const std::string& place);
 
-  /// Decodes everything asked for, with MIPs, in parallel; views of `materials` come to refer to
-  /// the result. One warning names what cannot be read: the materials then show their factors
-  /// alone, but for emission, which a map restricts to lamps and screens: without it there is none.
+  /// Decodes all images in use, with MIP levels, in parallel, and updates the views of `materials`
+  /// to refer to the result. One warning names the images that cannot be read. Materials then use
+  /// their factors alone, except that without its map, emission is 0, since a map restricts it to
+  /// lamps and screens.
   std::vector<Texture> decode(std::vector<Material>& materials);
 
  private:

@@ -14,12 +14,12 @@ using json = nlohmann::json;
 
 constexpr const char* kKey = "lambent_probe_volume";
 
-// More probes along one axis than any field has.
+// Limit of probes along one axis, above that of any field.
 constexpr double kMaxBatchProbes = 1048576.0;
-// Priorities need not be larger, and fit an int.
+// Limit of priorities, which fits into an int.
 constexpr double kMaxPriority = 1e6;
 
-/// Null where all went well, else what is wrong.
+/// Returns null, or a description of the error.
 const char* read_volume(const json& extras, ProbeVolume& volume) {
   if (!extras.is_object()) return "is not an object";
   for (const auto& [key, value] : extras.items()) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Probe volumes that a file's author asks for in the extras of nodes. Nothing here makes a file
-// fail: what cannot be understood is ignored with a warning. Whether a field can have such volumes
-// is decided where one is made.
+// Probe volumes in the extras of nodes. No errors: invalid ones are ignored with a warning. Whether
+// a field supports such volumes is checked when one is made.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,7 +13,7 @@ namespace lambent::gltf {
 /// Fills Document::node_volumes.
 void read_node_volumes(Document& document, const nlohmann::json& root);
 
-/// The volume of a node that asks for one, where the node stands.
+/// Adds the volume of a node, if any, to the scene, placed by the node's transform.
 void place_volume(Document& document, int node, const glm::mat4& world_from_node, Scene& scene);
 
 }  // namespace lambent::gltf

@@ -10,16 +10,16 @@
 namespace lambent {
 namespace {
 
-// Cones are made wider by this [rad], far more than the rounding of their axes: a light just
-// outside its cone could be held for one that faces away.
+// Cones are widened by this [rad], far more than the rounding of their axes: a light just outside
+// its cone could otherwise count as facing away.
 constexpr float kConeMargin = 1e-3f;
 
 float angle_of(float cosine) {
   return std::acos(std::clamp(cosine, -1.0f, 1.0f));
 }
 
-/// Mean of cone_attenuation over all directions: 1 within the inner cone, and from there to the
-/// outer one the square of a line over the cosine, of which the mean is a third.
+/// Mean of cone_attenuation over all directions: 1 within the inner cone; from there to the outer
+/// one, the square of a linear function of the cosine, whose mean is a third.
 double mean_cone_attenuation(const LightRecord& light) {
   if (light.type != kLightSpot) return 1.0;
   const double cos_inner = std::min(light.cos_outer + 1.0 / light.cone_scale, 1.0);
@@ -35,7 +35,7 @@ FacingCone join(const FacingCone& a, const FacingCone& b) {
   joined.cos_emission = std::min(a.cos_emission, b.cos_emission);
   joined.both_sides = a.both_sides || b.both_sides;
 
-  // Turn the axis of the narrow one, if it may be turned, or else that of the wide one
+  // Reverse the axis of the narrow one if it has two sides, or else that of the wide one
   glm::vec3 other = narrow.axis;
   if (glm::dot(wide.axis, other) < 0.0f) {
     if (narrow.both_sides) {
@@ -75,12 +75,12 @@ void LightCluster::add(const LightCluster& other) {
 
 double LightCluster::cost() const {
   if (empty) return 0.0;
-  // The measure of directions goes from pi, of a flat cluster, to 4 pi; a straight line over the
-  // cosine stands for it
+  // The measure of directions is between pi, for a flat cluster, and 4 pi; approximate it as linear
+  // in the cosine
   const double directions = kPi * (1.0 + 1.5 * (1.0 - cone.cos_spread));
   const glm::dvec3 size(box.max - box.min);
   const double area = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
-  // Boxes without an area, as of lights in a row, still differ by their length
+  // Boxes without an area, such as those of lights in a row, differ by their length
   constexpr double kLengthShare = 1e-3;
   const double longest = std::max({size.x, size.y, size.z});
   return intensity * directions * (area + kLengthShare * longest * longest);
@@ -94,7 +94,7 @@ LightCluster cluster_of(const EmitterRecord& emitter, float intensity) {
   cluster.cone.axis = triangle_normal(emitter.edge1_ws, emitter.edge2_ws);
   cluster.cone.cos_emission = 0.0f;
   cluster.cone.both_sides = true;
-  // The normal of a thin triangle may be anything
+  // The normal of a thin triangle is unreliable
   if (!(std::abs(glm::dot(cluster.cone.axis, cluster.cone.axis) - 1.0f) < 1e-3f)) {
     cluster.cone.axis = glm::vec3(0.0f, 0.0f, 1.0f);
     cluster.cone.cos_spread = -1.0f;
@@ -124,7 +124,7 @@ LightCluster cluster_of(const LightRecord& light) {
 LightTreeNode node_of(const LightCluster& cluster) {
   LightTreeNode node{};
   node.center_ws = 0.5f * cluster.box.min + 0.5f * cluster.box.max;
-  // Rounding of the middle must not leave a corner out
+  // Rounding of the centre must not exclude a corner
   constexpr float kRounding = 1e-6f;
   const glm::vec3 reach = glm::max(glm::abs(cluster.box.min), glm::abs(cluster.box.max));
   const glm::vec3 size = cluster.box.max - cluster.box.min;
@@ -133,7 +133,7 @@ LightTreeNode node_of(const LightCluster& cluster) {
   const float spread = angle_of(cluster.cone.cos_spread);
   node.cos_spread = std::cos(spread);
   node.sin_spread = cluster.cone.cos_spread <= -1.0f ? 0.0f : std::sin(spread);
-  // The bound of a spot's cone is strict, its light ends in it
+  // Importance requires a cosine above this bound, but a spot light's cone includes its edge
   node.cos_emission = cluster.cone.cos_emission - (cluster.cone.cos_emission > 0.0f ? 1e-5f : 0.0f);
   node.intensity = static_cast<float>(cluster.intensity);
   node.mean_sent =

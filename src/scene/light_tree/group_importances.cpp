@@ -7,7 +7,7 @@
 namespace lambent {
 namespace {
 
-// In place of lambent::kLanes: one for each node.
+// Replaces lambent::kLanes: one lane per node.
 constexpr int kLanes = static_cast<int>(kLightGroupSize);
 
 #define LAMBENT_KERNELS "scene/light_tree/importance_kernel.inl.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The importance of all nodes of a group at once.
+// Computes the importances of all nodes of a group at once.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,12 @@
 
 namespace lambent {
 
-/// Floats of a group: each number of its nodes, one after the other, as struct ClusterNumbers; then
-/// the bits of their links; then nothing, up to the end of a cache line.
+/// Layout of a group: each number of struct ClusterNumbers for all of its nodes; then the bits of
+/// their links; then padding to the end of a cache line.
 inline constexpr std::size_t kGroupNumbers = 14;
 inline constexpr std::size_t kGroupFloats = 16 * kLightGroupSize;
 
-/// Lays out a node as number `child` of a group.
+/// Stores a node as child number `child` of a group.
 void store_in_group(const LightTreeNode& node, std::size_t child, float* group);
 
 /// light_importance of each node of a group for a point with this unit normal; the same bits on all

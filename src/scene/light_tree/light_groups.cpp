@@ -10,7 +10,7 @@ bool is_leaf(const LightTreeNode& node) {
   return (node.link & kLightTreeLeaf) != 0;
 }
 
-/// How many lights are below each node.
+/// The number of lights below each node.
 std::vector<std::uint32_t> lights_below(std::span<const LightTreeNode> tree) {
   std::vector<std::uint32_t> lights(tree.size(), 1);
   for (std::size_t i = tree.size(); i-- > 0;) {
@@ -19,16 +19,16 @@ std::vector<std::uint32_t> lights_below(std::span<const LightTreeNode> tree) {
   return lights;
 }
 
-/// Whether a node of a group is rather replaced by its children than another one: of those that
-/// do not fit into a group the largest one, so that trees are shallow, and then the smallest one,
-/// so that few groups are next to empty.
+/// Whether a node of a group should be replaced by its children before another one: first the
+/// largest of those that do not fit into a group, so that trees are shallow; then the smallest, so
+/// that few groups are nearly empty.
 bool is_opened_before(std::uint32_t lights, std::uint32_t others) {
   const bool fits = lights <= kLightGroupSize, other_fits = others <= kLightGroupSize;
   if (fits != other_fits) return other_fits;
   return fits ? lights < others : lights > others;
 }
 
-/// The nodes below one that make up a group, or that itself if it is a leaf.
+/// The nodes below `node` that form a group, or `node` itself if it is a leaf.
 std::vector<std::uint32_t> group_below(std::span<const LightTreeNode> tree,
                                        std::span<const std::uint32_t> lights, std::uint32_t node) {
   std::vector<std::uint32_t> group = {node};
@@ -63,7 +63,7 @@ void LightGroups::build(std::span<const LightTreeNode> tree) {
     }
     members_.resize((g + 1) * kLightGroupSize, kNowhere);
   }
-  // Groups below nodes follow in the order of these
+  // The groups below nodes are in the order of these nodes
   nodes_.assign(members_.size(), LightTreeNode{});
   std::uint32_t below = 1;
   for (std::size_t place = 0; place < members_.size(); ++place) {

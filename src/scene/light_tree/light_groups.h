@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light tree in groups: nodes of up to eight children, as lights are picked from it.
+// A light tree with up to eight children per node, from which lights are picked.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@ namespace lambent {
 /// leaf.
 class LightGroups {
  public:
-  /// Which nodes are in which group. Children come after their parents.
+  /// Assigns the nodes of a tree to groups. In `tree`, children come after their parents.
   void build(std::span<const LightTreeNode> tree);
-  /// Takes over what the nodes of the tree are now.
+  /// Copies the nodes of a tree whose bounds or intensities have changed.
   void fit(std::span<const LightTreeNode> tree);
 
-  /// kLightGroupSize a group.
+  /// kLightGroupSize nodes per group.
   const std::vector<LightTreeNode>& nodes() const { return nodes_; }
-  /// kGroupFloats a group.
+  /// The kGroupFloats floats of a group.
   const float* numbers(std::uint32_t group) const { return numbers_.data() + group * kGroupFloats; }
   /// The place of a node of the tree: group * kLightGroupSize + child; kNowhere if it is in none.
   std::uint32_t place_of(std::uint32_t node) const { return places_[node]; }
   static constexpr std::uint32_t kNowhere = 0xFFFFFFFFu;
 
  private:
-  std::vector<std::uint32_t> members_;  // nodes of the tree, kLightGroupSize a group
+  std::vector<std::uint32_t> members_;  // nodes of the tree, kLightGroupSize per group
   std::vector<std::uint32_t> places_;
   std::vector<LightTreeNode> nodes_;
   AlignedFloats numbers_;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a cluster of lights may send to a point (for several clusters in C++, a vector's lanes), in
-// the common subset of C++ and GLSL. Without guard. The includer provides
+// The importance of a cluster of lights for a point (in C++ also of several clusters, in the lanes
+// of a vector), in the common subset of C++ and GLSL. Without an include guard. The includer
+// provides
 //   Real             float, or lanes of them with the same operators
 //   LAMBENT_REAL_FN  before a function
 //   Real root(Real), Real max(Real, float), Real abs(Real)
 
-/// LightTreeNode, as far as importance depends on it.
+/// The numbers of a LightTreeNode on which its importance depends.
 struct ClusterNumbers {
   Real center_x, center_y, center_z;
   Real half_x, half_y, half_z;
@@ -15,10 +16,11 @@ struct ClusterNumbers {
   Real both_sides;  ///< 1 or 0.
 };
 
-/// PickLobe at a cluster whose middle is at (x, y, z) from the point: what the lobe is at most at
-/// the directions to it, times the share of these that the lobe fills. Half vectors turn by half of
-/// the angle by which directions turn in the plane of light and viewer, and across it by the
-/// inverse of their sum's length: towards grazing angles, far more.
+/// Bound of a PickLobe at a cluster whose centre is at (x, y, z) from the point: the lobe's maximum
+/// over the directions to the cluster, times the share of these that the lobe covers. Where a
+/// direction to light turns, the half vector turns by half the angle within the plane of light and
+/// viewer, and across this plane by the angle over the length of their sum: far more towards
+/// grazing angles.
 LAMBENT_REAL_FN Real lobe_at(PickLobe lobe, vec3 normal_ws, ClusterNumbers node, Real x, Real y,
                              Real z, Real middle) {
   Real one = x * 0.0f + 1.0f;
@@ -30,7 +32,7 @@ LAMBENT_REAL_FN Real lobe_at(PickLobe lobe, vec3 normal_ws, ClusterNumbers node,
   Real squared_length = max(2.0f * l_dot_v + 2.0f, kMinSquaredHalfVector);
   Real sine = root(max(one - sum * sum / squared_length, 0.0f));
 
-  // What extends along the line of sight subtends nothing
+  // Extent along the line of sight subtends no angle
   Real across_x = node.half_x * node.half_x * (one - x * x * inverse * inverse);
   Real across_y = node.half_y * node.half_y * (one - y * y * inverse * inverse);
   Real across_z = node.half_z * node.half_z * (one - z * z * inverse * inverse);
@@ -58,7 +60,7 @@ LAMBENT_REAL_FN Real importance_of(ClusterNumbers node, vec3 position_ws, vec3 n
   Real squared_size =
       node.half_x * node.half_x + node.half_y * node.half_y + node.half_z * node.half_z;
 
-  // Compute the largest cosine at the point: how far the box reaches above its horizon, over the
+  // Compute the largest cosine at the point: the height of the box above the horizon, over the
   // distance to the box
   vec3 steep = abs(normal_ws);
   Real height = x * normal_ws.x + y * normal_ws.y + z * normal_ws.z +
@@ -72,7 +74,8 @@ LAMBENT_REAL_FN Real importance_of(ClusterNumbers node, vec3 position_ws, vec3 n
     received += lobe_at(lobe, normal_ws, node, x, y, z, middle);
   }
 
-  // Compute the largest cosine at the lights: that of the axis, less the spread of where they face
+  // Compute the largest cosine at the lights: the angle to the axis less the spread of their
+  // orientations
   Real along = -(node.axis_x * x + node.axis_y * y + node.axis_z * z);
   along = node.both_sides > 0.0f ? abs(along) : along;
   along += abs(node.axis_x) * node.half_x + abs(node.axis_y) * node.half_y +

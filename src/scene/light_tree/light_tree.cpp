@@ -17,13 +17,13 @@ namespace {
 
 // Places along each axis at which a cluster may be split.
 constexpr int kBins = 12;
-// Larger clusters face all ways: where their lights face is not looked at, which would take most of
-// the time that building takes.
+// For larger clusters, orientations are ignored and count as all directions: their cones would take
+// most of the time of a build.
 constexpr std::size_t kMostLightsWithCones = 256;
 // A fitted tree whose cost has grown by this factor is built again.
 constexpr double kWornOut = 2.0;
 
-// What light_tree.inl.h asks for.
+// The types and functions that light_tree.inl.h requires.
 using LightTreeRef = const LightTree&;
 
 uint light_tree_size(const LightTree& tree) {
@@ -54,8 +54,7 @@ class Splitter {
     }
   }
 
-  /// Orders at least two lights so that the best first and second part follow each other; returns
-  /// the length of the first.
+  /// Partitions at least two lights by the best split; returns the length of the first part.
   std::size_t split(std::span<std::uint32_t> range) {
     if (range.size() == 2) return 1;
     Bounds middles;
@@ -66,7 +65,7 @@ class Splitter {
     for (int axis = 0; axis < 3; ++axis) {
       if (size[axis] > 0.0f) try_axis(range, middles, axis, longest / size[axis], best);
     }
-    // Lights in one place are parted anyhow
+    // Lights at the same place are split arbitrarily
     if (best.axis < 0) return range.size() / 2;
     const auto second = std::partition(range.begin(), range.end(), [&](std::uint32_t light) {
       return bin_of(middles_[light], middles, best.axis) < best.bin;
@@ -78,7 +77,7 @@ class Splitter {
   struct Best {
     double cost = 0.0;
     int axis = -1;
-    int bin = 0;  // that begins the second part
+    int bin = 0;  // first bin of the second part
   };
 
   static int bin_of(const glm::vec3& middle, const Bounds& middles, int axis) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All lights of a scene: those that every point asks, and a tree to draw from the others.
+// All lights of a scene: those to which every point traces a shadow ray, and a tree from which the
+// others are sampled.
 #pragma once
 
 #include <cstdint>
@@ -14,34 +15,36 @@ namespace lambent {
 
 struct LightCluster;
 
-/// So many point and spot lights are each asked with a shadow ray by every point: their light is
-/// then without noise. On a processor, so many rays cost about as much as a sample of the tree of
-/// more lights than that (`lambent_lights`). Where there are more, all of them are in the tree.
+/// Up to this many point and spot lights are each tested with a shadow ray by every point, without
+/// noise. On a processor, this many rays cost about as much as one sample of a tree with more
+/// lights (`lambent_lights`). Where there are more, all of them are in the tree.
 inline constexpr std::size_t kMaxLightsAsked = 16;
 
-/// The lights of a scene. Directional lights are always asked: no place is nearer to them than
-/// another. Emissive triangles, and the pieces of those that are divided, are always in the tree.
+/// The lights of a scene. Directional lights are never in the tree, since their light does not
+/// depend on the distance. Emissive triangles, and the pieces of divided ones, are always in the
+/// tree.
 class LightTree {
  public:
   LightTree(const Scene& scene, const EmissiveTriangles& emissive);
 
-  /// Follows edits. Where the same lights are in the tree as before, its nodes are only fitted
-  /// anew, until they have grown so much that it is worth to build it again.
+  /// Follows edits. Where the same lights are in the tree as before, its nodes are only refitted,
+  /// until they have grown so much that a rebuild pays off.
   void update(const Scene& scene, const EmissiveTriangles& emissive);
 
   /// Point, spot and directional lights, as in the scene.
   const std::vector<LightRecord>& lights() const { return lights_; }
-  /// Which of these are asked; the others are in the tree.
+  /// Indices of the lights to which every point traces a shadow ray; the others are in the tree.
   const std::vector<std::uint32_t>& asked() const { return asked_; }
 
   /// Node 0 is the root; empty: nothing is in the tree. A leaf's light is the index of one of
   /// EmissiveTriangles::entries() or, from their number on, that of one of the lights above.
   const std::vector<LightTreeNode>& nodes() const { return nodes_; }
 
-  /// The same in groups, from which lights are picked.
+  /// The nodes in groups, from which lights are picked.
   const LightGroups& groups() const { return groups_; }
 
-  /// A lobe as the functions below take it, for a point: see bounded_lobe in light_tree.inl.h.
+  /// Bounds a lobe for a point, as the functions below require: see bounded_lobe in
+  /// light_tree.inl.h.
   PickLobe bounded(const glm::vec3& position_ws, const glm::vec3& normal_ws,
                    const PickLobe& lobe) const;
 
@@ -49,7 +52,7 @@ class LightTree {
   LightPick pick(const glm::vec3& position_ws, const glm::vec3& normal_ws, const PickLobe& lobe,
                  float u) const;
 
-  /// The same for several increasing uniform numbers in LightPick::rest, at most kMostPicks.
+  /// Picks several lights, at most kMostPicks, for increasing uniform numbers in LightPick::rest.
   void pick(const glm::vec3& position_ws, const glm::vec3& normal_ws, const PickLobe& lobe,
             std::uint32_t count, LightPicks& picks) const;
 
@@ -57,11 +60,11 @@ class LightTree {
   float probability(std::uint32_t light, const glm::vec3& position_ws, const glm::vec3& normal_ws,
                     const PickLobe& lobe) const;
 
-  /// How often the tree was built rather than fitted.
+  /// How often the tree was built rather than refitted.
   int builds() const { return builds_; }
 
  private:
-  /// Which light it is, from one update to the next.
+  /// Identifies a light from one update to the next.
   struct LightKey {
     std::uint32_t instance, triangle;  // or kPunctual and the light
     glm::vec2 piece_corner{0.0f};
@@ -83,7 +86,7 @@ class LightTree {
   std::vector<LightTreeNode> nodes_;
   std::vector<std::uint32_t> parents_;  // by node
   std::vector<std::uint32_t> leaves_;   // by light of the tree
-  std::vector<LightKey> keys_;          // what is in the tree
+  std::vector<LightKey> keys_;          // the lights of the tree
   double cost_when_built_ = 0.0;
   int builds_ = 0;
   LightGroups groups_;

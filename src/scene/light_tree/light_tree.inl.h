@@ -11,7 +11,7 @@
 // where importances are those of light_importance.
 
 /// Scales the specular part of a lobe down so that at the root it gets at most half of all picks.
-/// Highlights that are brighter by orders would leave no picks to the light around them.
+/// Highlights that are brighter by orders of magnitude would leave no picks for diffuse light.
 LAMBENT_FN PickLobe bounded_lobe(LightTreeRef tree, vec3 position_ws, vec3 normal_ws,
                                  PickLobe lobe) {
   if (lobe.specular <= 0.0f || light_tree_size(tree) == 0u) return lobe;
@@ -31,10 +31,10 @@ LAMBENT_FN PickLobe bounded_lobe(LightTreeRef tree, vec3 position_ws, vec3 norma
   return lobe;
 }
 
-/// Picks lights for a point with this unit normal by what they may send there and what the point
-/// makes of that, for which `lobe` stands: as bounded_lobe() gives it. The first `count` of `picks`
-/// hold uniform numbers in `rest`, in increasing order: picks that come to the same group stay
-/// neighbours, and look at it once for all of them.
+/// Picks lights for a point with this unit normal, by their importance for the reflection `lobe`,
+/// which is a result of bounded_lobe(). The first `count` of `picks` hold uniform numbers in
+/// `rest`, in increasing order: picks that reach the same group are then consecutive, and evaluate
+/// it once for all of them.
 LAMBENT_FN void pick_lights(LightTreeRef tree, vec3 position_ws, vec3 normal_ws, PickLobe lobe,
                             uint count, LAMBENT_INOUT(LightPicks) picks) {
   float whole = light_tree_size(tree) > 0u ? 1.0f : 0.0f;
@@ -52,7 +52,7 @@ LAMBENT_FN void pick_lights(LightTreeRef tree, vec3 position_ws, vec3 normal_ws,
     }
     float importances[kLightGroupSize];
     group_importances(tree, group, position_ws, normal_ws, lobe, importances);
-    // Each child has its share of a line, up to its end
+    // Compute the cumulative importances
     float ends[kLightGroupSize];
     float sum = 0.0f;
     for (uint k = 0u; k < kLightGroupSize; ++k) {
@@ -68,7 +68,8 @@ LAMBENT_FN void pick_lights(LightTreeRef tree, vec3 position_ws, vec3 normal_ws,
       float place = picks.at[i].rest * sum;
       uint child = 0u;
       for (uint k = 0u; k < kLightGroupSize; ++k) child += place >= ends[k] ? 1u : 0u;
-      // Rounding may put the place at the end of all, where the last one is that has a share
+      // Rounding may put the number at the end of all intervals; take the last child with an
+      // importance
       if (child == kLightGroupSize) {
         --child;
         while (child > 0u && ends[child - 1u] >= sum) --child;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How lights are picked for surfaces that shine: by their highlights, too.
+// Picking lights for glossy surfaces, including their highlights.
 #ifndef LAMBENT_SCENE_PICK_LOBE_H
 #define LAMBENT_SCENE_PICK_LOBE_H
 
@@ -10,11 +10,11 @@
 
 LAMBENT_BEGIN
 
-/// For wider lobes [GGX alpha] lights are picked by the cosine alone, which is about as wide.
+/// For wider lobes [GGX alpha], lights are picked by the cosine alone, whose lobe is about as wide.
 const float kWidestPickedLobe = 0.5f;
 
-/// The lobe of a coat, for lights to be picked by; F * G1(v) * D / (4 * n_dot_v), where D is the
-/// lobe's distribution, see PickLobe. `even` is what the base and wide lobes send on of irradiance.
+/// The lobe of a coat for picking lights: F * G1(v) * D / (4 * n_dot_v), where D is the lobe's
+/// distribution; see PickLobe. `even` is the albedo of the base and of wide lobes.
 LAMBENT_FN PickLobe pick_lobe_of_coat(Reflectance coat, float even, vec3 to_viewer_ws,
                                       float n_dot_v) {
   float masked = 1.0f / (1.0f + ggx_lambda(n_dot_v, coat.alpha));
@@ -24,8 +24,8 @@ LAMBENT_FN PickLobe pick_lobe_of_coat(Reflectance coat, float even, vec3 to_view
   return lobe;
 }
 
-/// The lobe of a surface: of its coat or its clearcoat, whichever reflects more. `to_viewer` is in
-/// the frame of the shading normal, which stands for the clearcoat's, too.
+/// The lobe of a surface: that of its coat or its clearcoat, whichever reflects more. `to_viewer`
+/// is in the frame of the shading normal, which is used for the clearcoat, too.
 LAMBENT_FN PickLobe pick_lobe(Reflectance surface, Frame frame, vec3 to_viewer) {
   float n_dot_v = to_viewer.z;
   if (has_no_coat(surface) || n_dot_v <= 0.0f) return no_pick_lobe();

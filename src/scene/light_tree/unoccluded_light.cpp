@@ -12,7 +12,7 @@ struct LitTree {
   const EmissiveTriangles& emissive;
 };
 
-// What unoccluded_light.inl.h asks for.
+// The types and functions that unoccluded_light.inl.h requires.
 using LightTreeRef = const LitTree&;
 
 uint light_tree_size(const LitTree& of) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light of all lights of a light tree at a point if nothing is in the way, in the common subset
-// of C++ and GLSL. The includer provides the type
+// The unoccluded light of all lights of a light tree at a point, in the common subset of C++ and
+// GLSL. The includer provides the type
 //   LightTreeRef  a tree
 // and
 //   uint light_tree_size(LightTreeRef tree)    its nodes; the first one is the root
@@ -10,8 +10,8 @@
 //   EmitterRecord fetch_emitter(LightTreeRef tree, uint emitter)
 //   LightRecord fetch_light(LightTreeRef tree, uint light)
 
-/// What the light of a leaf brings a white Lambert surface with this unit normal, as luminance
-/// [W/(m^2 sr)].
+/// Luminance of a white Lambert surface with this unit normal under the light of a leaf [W/(m^2
+/// sr)].
 LAMBENT_FN float light_of_leaf(LightTreeRef tree, LightTreeNode leaf, vec3 position_ws,
                                vec3 normal_ws) {
   uint light = leaf.link & ~kLightTreeLeaf;
@@ -26,12 +26,13 @@ LAMBENT_FN float light_of_leaf(LightTreeRef tree, LightTreeNode leaf, vec3 posit
   return luminance(arrived.irradiance) * kInvPi * max(dot(arrived.to_light, normal_ws), 0.0f);
 }
 
-// Nodes that wait while others are opened: more than trees are deep that have two lights anywhere.
+// Capacity of the stack of nodes, above the depth of trees that occur. Where it is full, clusters
+// are not opened.
 const int kMostWaitingNodes = 48;
 
-/// Luminance that a white Lambert surface with this unit normal gets [W/(m^2 sr)], without noise
-/// and without steps. Clusters that are far away count as one light: Barnes and Hut, "A
-/// Hierarchical O(N log N) Force-Calculation Algorithm", Nature 324, 1986.
+/// Luminance of a white Lambert surface with this unit normal [W/(m^2 sr)], without noise and
+/// continuous. Distant clusters count as one light: Barnes and Hut, "A Hierarchical O(N log N)
+/// Force-Calculation Algorithm", Nature 324, 1986.
 LAMBENT_FN float unoccluded_light(LightTreeRef tree, vec3 position_ws, vec3 normal_ws) {
   if (light_tree_size(tree) == 0u) return 0.0f;
   uint waiting[kMostWaitingNodes];
@@ -44,7 +45,7 @@ LAMBENT_FN float unoccluded_light(LightTreeRef tree, vec3 position_ws, vec3 norm
     --count;
     LightTreeNode node = fetch_node(tree, waiting[count]);
     float share = shares[count];
-    // Nothing of it is above the horizon
+    // Skip clusters that are entirely below the horizon
     vec3 offset = node.center_ws - position_ws;
     if (dot(normal_ws, offset) + dot(abs(normal_ws), node.half_size) <= 0.0f) continue;
     float opened = 1.0f;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light of lamps and of clusters of them at a point if nothing is in the way, in closed form.
+// The unoccluded light of lights and of clusters of lights at a point, in closed form.
 #ifndef LAMBENT_SCENE_LIGHT_TREE_UNOCCLUDED_MATH_H
 #define LAMBENT_SCENE_LIGHT_TREE_UNOCCLUDED_MATH_H
 
@@ -9,13 +9,13 @@
 
 LAMBENT_BEGIN
 
-// A cluster whose half diagonal is this share of its distance or less counts as one small light;
+// A cluster whose half diagonal is at most this share of its distance counts as one small light.
 const float kSmallCluster = 0.2f;
-// from this share on its parts count one by one; between the two, both do in part. What is found so
-// has no steps from one point to the next, which would show in the picture.
+// From this share on, the parts of a cluster count one by one. Between the two shares both results
+// are blended, since steps from one point to the next would be visible.
 const float kLargeCluster = 0.4f;
 
-/// Share by which a cluster's parts count one by one.
+/// Blend weight with which a cluster's parts count one by one.
 LAMBENT_FN float opened_share(LightTreeNode node, vec3 position_ws) {
   vec3 offset = node.center_ws - position_ws;
   float size = length(node.half_size);
@@ -36,13 +36,13 @@ LAMBENT_FN float angle_over_sine(float cosine) {
   return kPi * inversesqrt(max(1.0f - x * x, 1e-12f)) - acute;
 }
 
-/// What an edge between two directions adds to a polygon's form factor, times 2 pi.
+/// Contribution of an edge between two directions to a polygon's form factor, times 2 pi.
 LAMBENT_FN float edge_form_factor(vec3 a, vec3 b, vec3 normal) {
   float scale = inversesqrt(max(dot(a, a) * dot(b, b), 1e-37f));
   return dot(cross(a, b), normal) * scale * angle_over_sine(dot(a, b) * scale);
 }
 
-/// Where an edge crosses the horizon; heights over it have different signs.
+/// The point where an edge crosses the horizon; the heights of its ends have different signs.
 LAMBENT_FN vec3 on_horizon(vec3 a, float height_a, vec3 b, float height_b) {
   return (a * height_b - b * height_a) / (height_b - height_a);
 }
@@ -60,7 +60,7 @@ LAMBENT_FN float triangle_form_factor(vec3 corner, vec3 edge1, vec3 edge2, vec3 
   int above = (heights.x > 0.0f ? 1 : 0) + (heights.y > 0.0f ? 1 : 0) + (heights.z > 0.0f ? 1 : 0);
   if (above == 0) return 0.0f;
   if (above < 3) {
-    // Turn the corners so that the first one is on a side alone, and cut there
+    // Rotate the corners so that the first one is alone on its side of the horizon, and clip there
     bool alone = above == 1;
     if ((heights.y > 0.0f) == alone && (heights.x > 0.0f) != alone && (heights.z > 0.0f) != alone) {
       vec3 first = a;
@@ -88,21 +88,21 @@ LAMBENT_FN float triangle_form_factor(vec3 corner, vec3 edge1, vec3 edge2, vec3 
   return 0.5f * kInvPi * abs(sum);
 }
 
-/// Mean cosine, with what is below the horizon left out, of something that reaches up to `size`
-/// above and below the cosine of its middle.
+/// Mean of the cosine, clamped to 0 below the horizon, over the interval of `size` to both sides of
+/// `cosine`.
 LAMBENT_FN float cosine_above_horizon(float cosine, float size) {
   if (cosine >= size) return cosine;
   float part = max(cosine + size, 0.0f);
   return part * part / (4.0f * max(size, 1e-20f));
 }
 
-/// What a cluster sends into a direction, over the sum of what its lights send the way that each
-/// faces: by where its cone faces if that is narrow, and by the mean of all directions if not.
+/// Intensity of a cluster in a direction, over the sum of its lights' intensities along their axes:
+/// from its cone if that is narrow, otherwise the mean over all directions.
 LAMBENT_FN float sent_by_cluster(LightTreeNode node, vec3 from_light) {
   float along = dot(node.axis_ws, from_light);
   float sent = abs(along);
   if (node.both_sides == 0u) {
-    // Spot lights send as much all over their cones as the way that they face, nothing beyond
+    // Spot lights emit evenly within their cones, and nothing beyond
     float sin_emission = sqrt(max(1.0f - node.cos_emission * node.cos_emission, 0.0f));
     float last = node.cos_emission * node.cos_spread - sin_emission * node.sin_spread;
     sent = clamp((along - last) / max(1.0f - last, 1e-3f), 0.0f, 1.0f);
@@ -110,8 +110,8 @@ LAMBENT_FN float sent_by_cluster(LightTreeNode node, vec3 from_light) {
   return mix(node.mean_sent, sent, 0.5f + 0.5f * node.cos_spread);
 }
 
-/// Luminance that a white Lambert surface with this unit normal gets from a cluster as if it were
-/// one small light [W/(m^2 sr)].
+/// Luminance of a white Lambert surface with this unit normal under a cluster that counts as one
+/// small light [W/(m^2 sr)].
 LAMBENT_FN float light_of_cluster(LightTreeNode node, vec3 position_ws, vec3 normal_ws) {
   vec3 offset = node.center_ws - position_ws;
   float squared = max(dot(offset, offset) + kSizeShare * dot(node.half_size, node.half_size),

@@ -7,10 +7,11 @@
 namespace lambent {
 namespace {
 
-// Steps to the distance of an optical depth. Newton's method takes a few; where boxes begin and end
-// it falls back to halving, which is down to the resolution of a float after 40.
+// Maximum number of steps to find the distance of an optical depth. Newton's method takes a few;
+// where boxes begin and end it falls back to bisection, which reaches the resolution of a float
+// after 40.
 constexpr int kMaxSteps = 40;
-// Error of the optical depth that is rounding.
+// Error of the optical depth at which the search ends: rounding is as large.
 constexpr float kDepthTolerance = 1e-6f;
 
 MediumRecord record_of(const FogVolume& fog) {
@@ -45,7 +46,7 @@ MediumEvent Media::event_at(const glm::vec3& origin_ws, const glm::vec3& directi
     if (std::abs(missing) <= kDepthTolerance * std::max(depth, kDepthTolerance)) break;
     (missing > 0.0f ? low : high) = t;
     const float next = t + missing / density();
-    // Written so that what is not a number is halved
+    // Written so that NaN leads to bisection
     t = next > low && next < high ? next : 0.5f * (low + high);
   }
 

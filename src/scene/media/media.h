@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fog of a scene, ready for formulas.
+// The fog of a scene, prepared for lookups.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace lambent {
 
-/// Where along a ray light is scattered next, and by what.
+/// A scattering event along a ray.
 struct MediumEvent {
   float distance = 0.0f;  ///< [m]
   glm::vec3 albedo{0.0f};
@@ -26,7 +26,7 @@ class Media {
   bool empty() const { return records_.empty(); }
   const std::vector<MediumRecord>& records() const { return records_; }
 
-  /// The event that a ray comes to after an optical depth, which must not be above that up to
+  /// The event at an optical depth along a ray. `depth` must not exceed the optical depth up to
   /// `t_max`; `u` picks the box where several overlap.
   MediumEvent event_at(const glm::vec3& origin_ws, const glm::vec3& direction_ws, float t_max,
                        float depth, float u) const;
@@ -35,7 +35,7 @@ class Media {
   std::vector<MediumRecord> records_;
 };
 
-// What media.inl.h asks for.
+// The types and functions that media.inl.h requires.
 using MediaRef = const Media&;
 inline uint media_count(const Media& media) {
   return static_cast<uint>(media.records().size());

@@ -17,13 +17,13 @@ LAMBENT_FN float optical_depth(MediaRef media, vec3 origin_ws, vec3 direction_ws
   return sum;
 }
 
-/// Share of light that passes from a point to another one at this distance.
+/// Transmittance from a point to another one at this distance.
 LAMBENT_FN float transmittance(MediaRef media, vec3 origin_ws, vec3 direction_ws, float distance) {
   return exp(-optical_depth(media, origin_ws, direction_ws, 0.0f, distance));
 }
 
-/// From where to where along a ray, up to a distance, there is fog: from the first box that it
-/// enters to where it leaves the last one. The end is not above the begin where there is none.
+/// The interval of distances along a ray, up to `t_max`, that contains fog: from where it enters
+/// the first box to where it leaves the last one. If there is none, the end is not above the begin.
 LAMBENT_FN vec2 fog_range(MediaRef media, vec3 origin_ws, vec3 direction_ws, float t_max) {
   vec2 range = vec2(infinity(), 0.0f);
   for (uint i = 0u; i < media_count(media); ++i) {
@@ -43,9 +43,9 @@ LAMBENT_FN float fog_density(MediaRef media, vec3 position_ws) {
   return sum;
 }
 
-/// Radiance per irradiance that fog at a point makes of light from a direction and sends against a
-/// ray of view, over what it extinguishes: albedo times phase function, of boxes that overlap their
-/// mean by density [1/sr]. 0 where there is no fog.
+/// Radiance that fog at a point scatters from `to_light` towards the viewer, per irradiance and
+/// extinction: albedo times phase function [1/sr], averaged by density where boxes overlap. 0 where
+/// there is no fog.
 LAMBENT_FN vec3 scattering(MediaRef media, vec3 position_ws, vec3 view_direction_ws,
                            vec3 to_light) {
   float cosine = dot(view_direction_ws, to_light);

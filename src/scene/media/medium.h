@@ -9,7 +9,7 @@
 
 LAMBENT_BEGIN
 
-/// A box of fog as formulas see it; as struct FogVolume of fog.h.
+/// A box of fog in the form that shared mathematics uses; see struct FogVolume of fog.h.
 struct MediumRecord {
   vec3 centre_ws;        ///< [m]
   vec3 half_size;        ///< Half of its edges [m].
@@ -27,15 +27,15 @@ struct MediumSpan {
   float begin;    ///< Distance along the ray [m].
   float end;      ///< Not above `begin`: the ray misses the box.
   float density;  ///< At the bottom of the box [1/m].
-  float height;   ///< Above the bottom where the ray enters, in scale heights.
-  float rise;     ///< Of that along the ray [1/m].
+  float height;   ///< Height above the bottom where the ray enters, in scale heights.
+  float rise;     ///< Change of the height along the ray [1/m].
 };
 
-// Directions whose part along an axis is smaller run alongside the box's faces: the distance to the
-// faces is then beyond all that there can be.
+// Directions with a smaller component along an axis count as parallel to the box's faces: the
+// distance to these would be beyond all coordinates.
 const float kAlongsideFaces = 1e-12f;
-// Exponents below which (1 - exp(-x)) / x is taken from its series, whose next term is then 1e-10
-// of it: the difference of two numbers close to 1 would keep only five digits.
+// For smaller exponents, (1 - exp(-x)) / x is computed from its series, whose relative error is
+// then 1e-10: the difference of two numbers close to 1 would have only five digits.
 const float kSmallExponent = 0.01f;
 
 /// The part of a ray, up to a distance, within a box of fog.
@@ -76,7 +76,7 @@ LAMBENT_FN float mean_of_decay(float x) {
 
 /// The integral of the density from one distance to another, which need not be within the span.
 /// With the density s_0 exp(-r t) over a length L it is [s_0 L (1 - exp(-r L)) / (r L)]. Computed
-/// from the denser end, so that no power grows.
+/// from the denser end, so that exponents are negative.
 LAMBENT_FN float span_optical_depth(MediumSpan span, float from, float to) {
   float begin = max(span.begin, from);
   float end = min(span.end, to);

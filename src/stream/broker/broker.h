@@ -12,26 +12,26 @@
 
 namespace lambent::stream {
 
-/// Whether this build has a broker's client.
+/// Whether this build supports brokers.
 bool has_broker();
 
-/// Whether an address is one of a broker's: nats://HOST[:PORT]/NAME, or tls://.
+/// Whether an address is that of a broker: nats://HOST[:PORT]/NAME, or tls://.
 bool is_broker_address(const std::string& text);
-/// Takes one apart. Fails, naming `option`, where it is none.
+/// Parses a broker's address. Fails, naming `option`, where it is not one.
 Expected<BrokerAddress> parse_broker_address(const std::string& option, const std::string& text);
 
 /// Publishes the light of a hub's world, as one client of it, on a thread of its own.
 class BrokerPublisher {
  public:
-  /// Refers to the hub, which must outlive it. `log` is told what goes wrong later. Fails where the
-  /// broker does not answer, the hub takes no more clients, or the build has none.
+  /// Refers to the hub, which must outlive it. `log` is called with later errors. Fails where the
+  /// broker does not answer, the hub is full, or the build does not support brokers.
   static Expected<std::unique_ptr<BrokerPublisher>> open(
       const BrokerAddress& address, Hub& hub, std::function<void(const std::string&)> log);
   virtual ~BrokerPublisher() = default;
 };
 
-/// Joins what a server publishes: a client of light alone, that may look. Fails where the broker or
-/// the server does not answer.
+/// Joins the stream that a server publishes, as a client of light with Role::view. Fails where the
+/// broker or the server does not answer.
 Expected<Joined> join_through_broker(const ConnectSettings& settings, const Hello& hello);
 
 }  // namespace lambent::stream

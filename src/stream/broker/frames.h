@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages in frames that a broker takes: those that are too long for one are in several.
+// Messages as frames for a broker: a message that is too long for one frame is split into several.
 #pragma once
 
 #include <cstddef>
@@ -19,29 +19,29 @@ inline std::string join_subject(const std::string& name) {
   return "lambent." + name + ".join";
 }
 
-// Session, part, parts, and the message's sequence number.
+// A frame's header: session, part, number of parts, and the message's sequence number.
 inline constexpr std::size_t kFrameHeaderBytes = 20;
 // A message has this many frames at most.
 inline constexpr std::uint32_t kMaxFrames = 65'536;
 
-/// A message as frames of at most so many bytes each. Sequence numbers count the messages of a
-/// session, which is drawn anew with each start, or of an answer to a request to join.
+/// Splits a message into frames of at most `most_bytes` each. Sequence numbers count the messages
+/// of a session, whose number is random for each start, or of an answer to a request to join.
 std::vector<std::vector<std::byte>> write_frames(std::span<const std::byte> message,
                                                  std::uint32_t session, std::uint64_t sequence,
                                                  std::size_t most_bytes);
 
-/// A message that frames brought.
+/// A message reassembled from frames.
 struct FramedMessage {
   std::uint32_t session = 0;
   std::uint64_t sequence = 0;
   std::vector<std::byte> bytes;
 };
 
-/// Puts messages together. What is broken or incomplete is left out, as what a broker lost is:
-/// sequence numbers tell.
+/// Reassembles messages. Broken and incomplete messages are dropped, like those that a broker lost;
+/// sequence numbers show the gap.
 class FrameReader {
  public:
-  /// A message of more than `most_bytes` is left out.
+  /// Messages of more than `most_bytes` are dropped.
   explicit FrameReader(std::size_t most_bytes) : most_bytes_(most_bytes) {}
   /// The message that a frame completes, if any.
   std::optional<FramedMessage> add(std::span<const std::byte> frame);

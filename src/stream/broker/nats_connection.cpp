@@ -8,7 +8,8 @@ namespace lambent::stream {
 namespace {
 
 constexpr std::int64_t kReconnectWaitMs = 250;
-// Longer messages of light are cut, whatever the broker would take, so that others get their turn.
+// Longer messages of light are split, even if the broker accepts larger ones, so that other
+// messages are not delayed.
 constexpr std::int64_t kMaxFrameBytes = std::int64_t{512} << 10u;
 
 }  // namespace
@@ -82,8 +83,8 @@ Expected<std::optional<NatsMessage>> next_message(const NatsSubscription& subscr
   const natsStatus status = natsSubscription_NextMsg(&message, subscription.get(),
                                                      std::max<std::int64_t>(timeout.count(), 1));
   if (status == NATS_OK) return std::optional(NatsMessage(message));
-  // What was too much for a slow reader was lost, which sequence numbers tell; who asks where
-  // nobody answers is told by the broker at once, but somebody may come
+  // None of these ends the connection: messages that a slow reader lost are found by sequence
+  // numbers, and a request without a responder may get one later
   if (status == NATS_TIMEOUT || status == NATS_SLOW_CONSUMER || status == NATS_NO_RESPONDERS) {
     return std::optional<NatsMessage>();
   }

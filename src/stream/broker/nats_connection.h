@@ -30,22 +30,22 @@ inline std::span<const std::byte> bytes_of(const NatsMessage& message) {
           static_cast<std::size_t>(natsMsg_GetDataLength(message.get()))};
 }
 
-/// A connection to a broker. What comes is asked for, on the caller's thread.
+/// A connection to a broker. Received messages are polled, on the caller's thread.
 class NatsConnection {
  public:
-  /// `comes_back`: a connection that is lost is made again, for ever, and what is published
+  /// `comes_back`: a lost connection is re-established, without limit, and messages published
   /// meanwhile may be lost. Fails where the broker does not answer.
   static Expected<NatsConnection> open(const BrokerAddress& address, bool comes_back,
                                        std::chrono::milliseconds timeout);
 
   Expected<NatsSubscription> subscribe(const std::string& subject) const;
-  /// Returns once the broker has got all that was asked of it.
+  /// Returns once the broker has received everything that was sent.
   Expected<void> flush(std::chrono::milliseconds timeout) const;
   Expected<void> publish(const std::string& subject, std::span<const std::byte> bytes) const;
   Expected<void> request(const std::string& subject, const std::string& reply) const;
-  /// A subject that nobody else has.
+  /// A new unique subject.
   std::string new_inbox() const;
-  /// Of what is published [bytes].
+  /// Largest size of a published frame [bytes].
   std::size_t max_frame_bytes() const;
 
  private:
@@ -57,8 +57,8 @@ class NatsConnection {
   std::unique_ptr<natsConnection, NatsDeleter> connection_;
 };
 
-/// The next message of a subscription; none where none comes in time. Fails once there is no
-/// connection.
+/// The next message of a subscription; none where none arrives in time. Fails once the connection
+/// is closed.
 Expected<std::optional<NatsMessage>> next_message(const NatsSubscription& subscription,
                                                   std::chrono::milliseconds timeout);
 

@@ -14,12 +14,13 @@
 namespace lambent::stream {
 namespace {
 
-// Between two looks at what there is to publish, and whether anybody wants to join.
+// Interval at which messages to publish and requests to join are polled.
 constexpr std::chrono::milliseconds kLook{5};
 constexpr std::chrono::milliseconds kConnectTimeout{5'000};
-// Who joins gets all that there is; more wait for their turn, and ask again.
+// Maximum number of clients that join at a time, each of which gets the whole state; others ask
+// again.
 constexpr std::size_t kMaxJoining = 16;
-// Until one that joins has got it: a world that stands still has no light yet.
+// Time for a client to receive the whole state; there may be no light yet.
 constexpr std::chrono::seconds kJoinTimeout{10};
 
 Hello light_hello() {
@@ -28,7 +29,7 @@ Hello light_hello() {
   return hello;
 }
 
-/// A part of what a client of light is told, that goes to others: edits and light.
+/// Whether a message for a client of light is published: edits and light are.
 bool is_handed_on(const Message& message) {
   return std::holds_alternative<LightPayload>(message) ||
          std::visit([](const auto& any) { return std::is_constructible_v<Edit, decltype(any)>; },
@@ -75,7 +76,7 @@ class NatsPublisher : public BrokerPublisher {
     }
   }
 
-  /// Waits for a while.
+  /// Answers requests to join; waits for kLook for the first one.
   void take_joins() {
     for (auto wait = kLook;; wait = std::chrono::milliseconds(1)) {
       const auto message = next_message(joins_, wait);
@@ -95,7 +96,7 @@ class NatsPublisher : public BrokerPublisher {
     }
   }
 
-  /// Hands on what the world has for clients of light, and answers as each of them would.
+  /// Publishes the world's messages for clients of light, and answers them as a client would.
   void publish_stream() {
     while (const SharedBytes bytes = stream_->next(Clock::now())) {
       const auto message = parse_message(*bytes, Sender::server);
@@ -105,7 +106,7 @@ class NatsPublisher : public BrokerPublisher {
     }
   }
 
-  /// Whether one has got all.
+  /// Sends a joining client its messages; returns whether it has got all.
   bool answer(Joining& one) {
     while (const SharedBytes bytes = one.link->next(Clock::now())) {
       const auto message = parse_message(*bytes, Sender::server);
@@ -120,7 +121,7 @@ class NatsPublisher : public BrokerPublisher {
     const auto* light = std::get_if<LightPayload>(&message);
     if (light == nullptr) return;
     const auto opened = open_message(light->bytes);
-    // Of corrections, the geometry is the one that they came to be with
+    // The geometry of corrections is the one with which they appeared, so skip them
     if (!opened || opened->header.kind == LightMessageKind::corrections) return;
     static_cast<void>(
         link.receive(LightReceived{light->update, opened->header.geometry, 0}, Clock::now()));
@@ -137,7 +138,7 @@ class NatsPublisher : public BrokerPublisher {
     told_ = false;
   }
 
-  /// Once, until it goes well again.
+  /// Logs an error, once until publishing works again.
   void tell(const std::string& what) {
     if (!std::exchange(told_, true)) log_(what);
   }
@@ -168,7 +169,7 @@ Expected<std::unique_ptr<BrokerPublisher>> BrokerPublisher::open(
   if (!connection) return tl::unexpected(connection.error());
   auto joins = connection->subscribe(join_subject(address.name));
   if (!joins) return tl::unexpected(joins.error());
-  // Whoever asks from now on is heard
+  // From now on, requests to join are received
   if (const auto done = connection->flush(kConnectTimeout); !done) {
     return tl::unexpected(done.error());
   }

@@ -14,16 +14,17 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Between two looks at whether somebody has woken it.
+// Interval at which `wake` is polled.
 constexpr std::chrono::milliseconds kLook{10};
-// An answer to a request to join comes sooner; else it was lost, or the server has no room.
+// Time after which a request to join is repeated: it was lost, or the server is full.
 constexpr std::chrono::seconds kAskAgain{3};
-// Of the stream, while the answer to a request to join is under way.
+// Maximum number of the stream's messages that are queued while the answer to a request to join is
+// pending.
 constexpr std::size_t kMaxHeld = 4096;
 constexpr std::size_t kMaxMessageBytes = kHeaderBytes + kMaxLightBytes;
 
-/// Looks like a connection to the server. What the stream brings is handed out once the answer to
-/// the request to join has been; where something of it is lost, that is asked for again.
+/// A Client that reads from a broker. Messages of the stream are returned after the answer to the
+/// request to join; if some are lost, the whole state is requested again.
 class NatsSubscriber : public Client {
  public:
   NatsSubscriber(BrokerAddress address, NatsConnection connection, NatsSubscription stream)
@@ -31,7 +32,7 @@ class NatsSubscriber : public Client {
         connection_(std::move(connection)),
         stream_(std::move(stream)) {}
 
-  /// Asks for all that there is.
+  /// Requests the whole state.
   Expected<void> ask() {
     const std::string inbox = connection_.new_inbox();
     auto answer = connection_.subscribe(inbox);
@@ -42,7 +43,7 @@ class NatsSubscriber : public Client {
     answer_frames_ = FrameReader(kMaxMessageBytes);
     held_.clear();
     asked_ = Clock::now();
-    // The subscriptions must be there before the answer is
+    // The broker must know the subscriptions before the answer is sent
     if (const auto done = connection_.flush(std::chrono::milliseconds(1'000)); !done) return done;
     return connection_.request(join_subject(address_.name), inbox);
   }
@@ -72,7 +73,7 @@ class NatsSubscriber : public Client {
   void close() override {}
 
  private:
-  /// Takes one frame, if there is any.
+  /// Receives one frame, if there is any.
   Expected<std::optional<Message>> step(std::chrono::milliseconds wait) {
     if (begun_ && !held_.empty()) {
       FramedMessage framed = std::move(held_.front());
@@ -94,13 +95,14 @@ class NatsSubscriber : public Client {
     auto framed = stream_frames_.add(bytes_of(**came));
     if (!framed) return std::nullopt;
     if (begun_) return follow(std::move(*framed));
-    if (held_.size() >= kMaxHeld) held_.clear();  // a gap, then, and it is asked again
+    // leaves a gap, so that the state is requested again
+    if (held_.size() >= kMaxHeld) held_.clear();
     held_.push_back(std::move(*framed));
     return std::nullopt;
   }
 
-  /// What of the answer comes after the light: corrections. All else that may follow has come on
-  /// the stream, or will.
+  /// Receives the part of the answer after the light, which is corrections. All other messages also
+  /// come on the stream.
   Expected<std::optional<Message>> take_rest() {
     auto came = next_message(answer_, std::chrono::milliseconds(1));
     if (!came) return tl::unexpected(came.error());
@@ -133,17 +135,17 @@ class NatsSubscriber : public Client {
       begun_ = true;
       sequence_ = 0;
     }
-    // Who has joined before has been welcomed
+    // Return only the first welcome
     if (std::holds_alternative<Welcome>(*message) && std::exchange(welcomed_, true)) {
       return std::nullopt;
     }
     return std::optional(std::move(*message));
   }
 
-  /// What follows on the message before, or on the answer.
+  /// Returns a message of the stream if it follows the last one, or the answer.
   Expected<std::optional<Message>> follow(FramedMessage framed) {
     if (framed.session != session_) {
-      // Somebody else's, or of a server that started anew
+      // It is from another server, or from one that restarted
       auto message = parse_message(framed.bytes, Sender::server);
       if (!message) return std::nullopt;
       return fail_of_another();
@@ -166,13 +168,14 @@ class NatsSubscriber : public Client {
   const BrokerAddress address_;
   const NatsConnection connection_;
   const NatsSubscription stream_;
-  NatsSubscription answer_;  // to what was asked last
+  NatsSubscription answer_;  // to the last request
   FrameReader stream_frames_{kMaxMessageBytes}, answer_frames_{kMaxMessageBytes};
   std::deque<FramedMessage> held_;
   Clock::time_point asked_;
-  std::uint64_t answered_ = 0, sequence_ = 0;  // messages of the answer, and the stream's last
+  // number of messages of the answer, and the stream's last sequence number
+  std::uint64_t answered_ = 0, sequence_ = 0;
   std::optional<std::uint32_t> session_;
-  bool begun_ = false;  // all light that there was has come
+  bool begun_ = false;  // the whole state of light was received
   bool welcomed_ = false;
   std::atomic<bool> woken_ = false;
 };

@@ -25,7 +25,7 @@ using boost::asio::ip::tcp;
 using PlainStream = beast::tcp_stream;
 using TlsStream = beast::ssl_stream<PlainStream>;
 
-/// What outlives the stream.
+/// The parts that outlive the stream.
 struct Base {
   boost::asio::io_context io{1};
   boost::asio::ssl::context tls{boost::asio::ssl::context::tls_client};
@@ -75,7 +75,7 @@ class BeastClient : private Base, public Client {
     error = wait([&](auto done) { socket_.async_handshake(answer, host, "/stream", done); });
     if (error) return failed("refused the connection", error);
     lowest.expires_never();
-    // A server, or one between, may not know of the field
+    // A server or a proxy may not support the header field
     if (hello && answer[kHelloField] != kHelloTaken) return send(*hello);
     return {};
   }
@@ -95,7 +95,7 @@ class BeastClient : private Base, public Client {
                         });
     run_until(written, settings_.timeout);
     if (!written) {
-      // The bytes must not be looked at once this has returned
+      // The write must not access the bytes after this function has returned
       beast::get_lowest_layer(socket_).close();
       run_until(written, settings_.timeout);
       return fail("", name(), "does not read what it is sent", Error::Kind::failed);
@@ -149,7 +149,7 @@ class BeastClient : private Base, public Client {
     return fail("", name(), std::string(how) + ": " + error.message(), Error::Kind::failed);
   }
 
-  /// Only the host's own certificate will do.
+  /// Requires a trusted certificate for the host's name.
   Expected<void> trust() {
     namespace ssl = boost::asio::ssl;
     beast::error_code error;
@@ -174,7 +174,7 @@ class BeastClient : private Base, public Client {
     }
   }
 
-  /// As run_until(arrived_), unless somebody wakes it.
+  /// Like run_until(arrived_), but `wake` ends it.
   void wait_for_message(std::chrono::milliseconds timeout) {
     const auto end = std::chrono::steady_clock::now() + timeout;
     io.restart();
@@ -183,7 +183,7 @@ class BeastClient : private Base, public Client {
     woken_ = false;
   }
 
-  /// Starts an operation that the stream's own timeout ends, and waits for it.
+  /// Starts an operation that is limited by the stream's timeout, and waits for it.
   template <class Start>
   beast::error_code wait(const Start& start) {
     bool done = false;

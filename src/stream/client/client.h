@@ -17,44 +17,44 @@ namespace lambent::stream {
 
 /// A stream of light at a broker.
 struct BrokerAddress {
-  std::string url;   ///< nats://HOST:PORT, with a user and password where it needs them.
-  std::string name;  ///< Of the stream there, of letters, digits, - and _.
+  std::string url;   ///< nats://HOST:PORT, with user and password if needed.
+  std::string name;  ///< Name of the stream: letters, digits, - and _.
 };
 
 struct ConnectSettings {
   std::string host = "localhost";
   std::uint16_t port = 8080;
   bool tls = false;
-  /// A PEM file of whom to trust besides, or in place of, the system's authorities; empty: these.
+  /// A PEM file of trusted certificate authorities, in addition to or in place of the system's;
+  /// empty: the system's.
   std::string authority;
-  BrokerAddress broker;                       ///< In place of a server; no name: none.
+  BrokerAddress broker;                       ///< Used in place of a server; no name: none.
   std::string origin;                         ///< As browsers send it; empty: none.
-  std::chrono::milliseconds timeout{10'000};  ///< To connect, and to send a message.
+  std::chrono::milliseconds timeout{10'000};  ///< For connecting, and for sending a message.
 };
 
-/// A connection. Not thread-safe. Nothing happens on it but while a function of it runs.
+/// A connection. Not thread-safe. It makes progress only while one of its functions runs.
 class Client {
  public:
-  /// Connects, and says hello where there is one. Fails where nobody answers, the certificate is
-  /// not the host's, or the server refuses.
+  /// Connects, and sends `hello` if given. Fails where nobody answers, the certificate is not the
+  /// host's, or the server refuses.
   static Expected<std::unique_ptr<Client>> connect(const ConnectSettings& settings,
                                                    const std::optional<Hello>& hello = {});
   virtual ~Client() = default;
 
   virtual Expected<void> send(const Message& message) = 0;
-  /// Sends bytes that need be no message, for tests of servers.
+  /// Sends bytes that need not be a message, for tests of servers.
   virtual Expected<void> send_bytes(std::span<const std::byte> bytes, bool binary = true) = 0;
-  /// The next message; none where none came in time. Fails once the connection has ended, and on
+  /// The next message; none if none arrives in time. Fails once the connection has ended, and on
   /// messages that are not of the protocol.
   virtual Expected<std::optional<Message>> receive(std::chrono::milliseconds timeout) = 0;
-  /// Has `receive` return at once, now or when it is called next. May be called from any thread.
+  /// Makes the current or the next call of `receive` return at once. May be called from any thread.
   virtual void wake() = 0;
-  /// Says farewell, and waits for the server's.
+  /// Closes the WebSocket, and waits for the server to close it, too.
   virtual void close() = 0;
 };
 
-/// Connects and says hello, to a server or through a broker; the welcome, where the server takes
-/// the client in.
+/// A client that a server has accepted, directly or through a broker, and the server's welcome.
 struct Joined {
   std::unique_ptr<Client> client;
   Welcome welcome;

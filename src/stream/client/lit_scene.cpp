@@ -24,7 +24,8 @@ Expected<LitScene::Followed> LitScene::take_light(const LightPayload& light) {
     return fail("scene", "", "is no longer animated by the server, and where it began is not known",
                 Error::Kind::failed);
   }
-  // What is broken or does not apply leaves the light as it was, and is sent again
+  // Messages that are broken or do not apply leave the light unchanged; the server then sends the
+  // whole state
   const bool taken = streamed_.receive(light.bytes).has_value();
   const LightDecoder& decoder = streamed_.decoder();
   Followed followed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene of the client's own, in the light of a server.
+// A client's local scene, in the light of a server.
 #pragma once
 
 #include <cstdint>
@@ -13,36 +13,36 @@
 
 namespace lambent::stream {
 
-/// Follows what a server sends to a client of light: edits and animation of the scene, and its
+/// Applies the messages of a server to a client of light: edits and animation of the scene, and its
 /// light.
 class LitScene {
  public:
   /// Refers to the scene, a copy of the server's as it was opened, and its world.
   LitScene(Scene& scene, World& world) : scene_(scene), world_(world), editor_(scene, world) {}
 
-  /// LightDecoder::read_textures
+  /// See LightDecoder::read_textures.
   void read_textures(std::unique_ptr<TextureReader> reader) {
     streamed_.read_textures(std::move(reader));
   }
 
-  /// What came of a message.
+  /// The effects of a message.
   struct Followed {
-    bool lit = false;    ///< The field has the light of another update.
-    bool taken = false;  ///< A message of light was taken, of whichever kind.
-    /// To be sent to the server, so that it goes on; of messages of light.
+    bool lit = false;    ///< The field has the light of a new update.
+    bool taken = false;  ///< A message of light, of any kind, was accepted.
+    /// For messages of light, the answer for which the server waits.
     std::optional<LightReceived> answer;
   };
-  /// Takes a message. Light that does not apply is answered so that the server begins again. Fails
-  /// where the scene is another one than the server's, and on what the server refuses.
+  /// Applies a message. If light does not apply, the answer makes the server send the whole state.
+  /// Fails where the scene differs from the server's, and on refusals of the server.
   Expected<Followed> follow(const Message& message);
 
-  /// The server's light, for a Renderer; null before the first update. Stays where it is.
+  /// The server's light, for a Renderer; null before the first update. The pointer stays valid.
   const IrradianceField* field() const { return streamed_.field(); }
-  /// The light as it came.
+  /// The decoder of the light.
   const LightDecoder& decoder() const { return streamed_.decoder(); }
-  /// SceneEditor::original
+  /// See SceneEditor::original.
   Edit original(const EditTarget& target) const { return editor_.original(target); }
-  /// The update of the light that it is.
+  /// The update whose light the field has.
   std::uint64_t update() const { return streamed_.decoder().update(); }
 
  private:

@@ -8,16 +8,17 @@
 namespace lambent::stream {
 namespace {
 
-// Messages that wait to be sent; a server that takes none of them is lost soon.
+// Maximum number of queued messages; a server that accepts none of them is soon lost.
 constexpr std::size_t kMaxWaiting = 512;
-// Of light that nobody has taken: servers stop at 64 updates, so that more is no server's.
+// Limits of received messages that were not taken: servers stop at 64 updates of light, so these
+// are never reached by them.
 constexpr std::size_t kMaxArrivedBytes = std::size_t{1} << 30u, kMaxArrived = 65'536;
-// A server that is there again answers sooner.
+// Timeout of attempts to reconnect.
 constexpr std::chrono::milliseconds kShort{1'000};
-// Between looks at what is to be sent, should a call to wake be missed.
+// Interval at which messages to send are polled, in case a call to wake was missed.
 constexpr std::chrono::milliseconds kLook{250};
 
-/// What a scene has, which another one has not.
+/// Whether two welcomes describe scenes with the same numbers of instances and lights.
 bool same_scene(const Welcome& a, const Welcome& b) {
   return a.instances == b.instances && a.lights.size() == b.lights.size();
 }
@@ -83,7 +84,7 @@ bool Upstream::ending() const {
 }
 
 void Upstream::lost(const std::string& why) {
-  std::shared_ptr<Client> client;  // ends after the lock
+  std::shared_ptr<Client> client;  // destroyed after the lock is released
   const std::lock_guard lock(mutex_);
   client = std::exchange(client_, nullptr);
   waiting_.clear();
@@ -92,7 +93,7 @@ void Upstream::lost(const std::string& why) {
   if (wake_) wake_();
 }
 
-/// Sends what waits; false where the connection has ended.
+/// Sends queued messages; returns false if the connection has ended.
 bool Upstream::send_waiting() {
   for (;;) {
     std::optional<Message> message;
@@ -109,7 +110,7 @@ bool Upstream::send_waiting() {
   }
 }
 
-/// Keeps a message for who takes it; false where that has too much to take.
+/// Stores a message for `take`; returns false if too many are stored.
 bool Upstream::arrived(Message message) {
   const std::lock_guard lock(mutex_);
   if (const auto* light = std::get_if<LightPayload>(&message))
@@ -121,7 +122,7 @@ bool Upstream::arrived(Message message) {
   return true;
 }
 
-/// Receives until the connection ends, or all does.
+/// Receives until the connection or this object ends.
 void Upstream::follow_connection() {
   auto heard = std::chrono::steady_clock::now();
   said_.clear();

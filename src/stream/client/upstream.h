@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A server of light that another server gets its light from: a connection that is made again
+// A connection to the server from which another server gets its light. It is re-established
 // whenever it ends.
 #pragma once
 
@@ -23,17 +23,18 @@ namespace lambent::stream {
 struct UpstreamSettings {
   ConnectSettings connect;
   std::string token;  ///< For the server; empty: none.
-  /// A server that is lost is looked for again so long after each attempt.
+  /// Time between attempts to reconnect to a lost server.
   std::chrono::milliseconds retry{250};
-  /// A server tells how it fares each second; one that says nothing for so long is lost.
+  /// Servers send statistics each second; after this time without a message, the connection counts
+  /// as lost.
   std::chrono::milliseconds silence{5'000};
 };
 
-/// How the connection fares.
+/// Status of the connection.
 struct UpstreamStatus {
   bool connected = false;
   std::uint64_t connections = 0;  ///< So far.
-  std::string lost_because;       ///< Why it ended last, or could not be made again; empty: never.
+  std::string lost_because;  ///< Why it last ended or could not be re-established; empty: never.
 };
 
 /// Receives on a thread of its own. All functions may be called from any thread.
@@ -43,13 +44,16 @@ class Upstream {
   static Expected<std::unique_ptr<Upstream>> open(const UpstreamSettings& settings);
   ~Upstream();
 
-  /// Of the first connection.
+  /// The welcome of the first connection.
   const Welcome& welcome() const { return first_welcome_; }
-  /// `wake` is called whenever there is something to take; it may not call back. Null: nothing is.
+  /// Sets the function that is called whenever messages have arrived; it must not call this object.
+  /// Null: none.
   void on_arrival(std::function<void()> wake);
-  /// What has come since, in its order; a Welcome where a connection begins, the first included.
+  /// Returns the messages since the last call, in order. Each connection, including the first,
+  /// begins with a Welcome.
   std::vector<Message> take();
-  /// To be sent soon; forgotten where there is no connection, or it takes nothing.
+  /// Queues a message to be sent; it is dropped if there is no connection, or if that accepts
+  /// nothing.
   void send(Message message);
   UpstreamStatus status() const;
 
@@ -75,7 +79,7 @@ class Upstream {
   std::size_t arrived_bytes_ = 0;
   std::function<void()> wake_;
   UpstreamStatus status_;
-  std::string said_;  // by the server, of why it ends the connection
+  std::string said_;  // the server's reason for ending the connection
 
   std::thread thread_;  // last: it uses all others
 };

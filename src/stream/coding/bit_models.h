@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: M. Mahoney, "Adaptive Weighing of Context Models for Lossless Data Compression",
-// Florida Tech. Technical Report CS-2005-16, 2005: what several contexts expect of a binary
-// decision is mixed in the logistic domain, with weights that learn. In integers alone, as the
-// coder is.
+// Florida Tech. Technical Report CS-2005-16, 2005: the predictions of several contexts for a binary
+// decision are mixed in the logistic domain, with adaptive weights. Integers only, like the coder.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +14,10 @@
 
 namespace lambent::stream {
 
-/// What is expected of one kind of binary decision: the mean of two estimates, of which one forgets
-/// fast and one slowly.
+/// An adaptive model of one kind of binary decision: its probability is the mean of two estimates,
+/// one of which adapts fast and one slowly.
 struct BitModel {
-  // Decisions after which the estimates are averages over the last 16 and the last 180 or so.
+  // From these numbers of decisions on, the estimates are averages over about the last 16 and 180.
   static constexpr std::uint8_t kFastCount = 16, kSlowCount = 180;
 
   std::uint16_t fast = kProbabilityOne / 2;  ///< Probabilities of a 1, out of kProbabilityOne.
@@ -35,7 +34,7 @@ struct BitModel {
   }
 
  private:
-  /// The estimate after one more decision, which counts as one of count + 1.5.
+  /// The estimate after one more decision, which has the weight 1 / (count + 1.5).
   static std::uint16_t moved(std::uint16_t estimate, bool bit, std::uint8_t count) {
     static constexpr auto kShares = [] {
       std::array<std::int32_t, kSlowCount + 1> shares{};
@@ -50,7 +49,7 @@ struct BitModel {
   }
 };
 
-// No decision is taken to be more certain than this, so that a surprise costs at most 11 bits.
+// Least probability of a decision, so that an unexpected one costs at most 11 bits.
 inline constexpr std::uint32_t kLeastProbability = 32;
 
 inline std::uint32_t coded_probability(std::uint32_t probability) {
@@ -83,7 +82,7 @@ constexpr std::uint32_t probability_of(int log_odds) {
       (kLogistic[below] * (kBetween - rest) + kLogistic[below + 1] * rest) / kBetween);
 }
 
-// Log odds are found for probabilities rounded down to multiples of 2^kLogOddsShift.
+// The table of log odds is for probabilities rounded down to multiples of 2^kLogOddsShift.
 inline constexpr int kLogOddsShift = 4;
 
 /// Log odds by probability: the least whose probability is no lower.
@@ -105,12 +104,13 @@ inline int log_odds_of(std::uint32_t probability) {
 // Weights have 16 fractional bits, and are within these.
 inline constexpr std::int32_t kMixWeightOne = 1 << 16, kMaxMixWeight = 8 * kMixWeightOne;
 
-/// Weights of what some models expect.
+/// Weights of the predictions of several models.
 template <std::size_t Count>
 struct MixWeights {
-  // At first each model counts by a bit more than its share.
+  // Each weight begins slightly above 1 / Count.
   static constexpr std::int32_t kStart = kMixWeightOne * 4 / 3 / static_cast<int>(Count);
-  // How fast weights learn: 14 to 16 differ by less than a thousandth of a stream.
+  // Learning rate of weights: with 14 to 16, the size of a stream differs by less than a
+  // thousandth.
   static constexpr int kRateShift = 15;
 
   std::array<std::int32_t, Count> weights = [] {
@@ -122,7 +122,7 @@ struct MixWeights {
   bool operator==(const MixWeights&) const = default;
 };
 
-/// Codes a decision of which several models expect something.
+/// Codes a decision with the mixed predictions of several models.
 template <class Coder, std::size_t Count>
 bool code_mixed(Coder& coder, MixWeights<Count>& mix, const std::array<BitModel*, Count>& models,
                 bool value) {
@@ -147,8 +147,8 @@ bool code_mixed(Coder& coder, MixWeights<Count>& mix, const std::array<BitModel*
 }
 
 /// Codes a number, 0 or more, of any size: a unary prefix with a model for each of its bits, which
-/// counts the bits that follow (exponential Golomb code of order 0). Returns it; what decodes to
-/// more than 2^31 - 2 is cut off there.
+/// counts the bits that follow (exponential Golomb code of order 0). Returns it; decoded numbers
+/// are clamped to 2^31 - 2.
 template <class Coder, std::size_t Length>
 std::uint32_t code_exp_golomb(Coder& coder, std::array<BitModel, Length>& models,
                               std::uint32_t value) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: G. N. N. Martin, "Range encoding", Video and Data Recording Conference, 1979; the form
-// with carries over bytes already written is that of LZMA. An adaptive binary arithmetic coder, in
-// integers alone, so that encoder and decoder agree to the bit on all machines.
+// with carries over bytes already written is that of LZMA. An adaptive binary arithmetic coder that
+// uses integers only, so that encoder and decoder agree to the bit on all machines.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@
 
 namespace lambent::stream {
 
-// Probabilities are given out of this; none may be 0 or this.
+// The fixed-point 1 of probabilities, which must be above 0 and below this.
 inline constexpr std::uint32_t kProbabilityOne = 1u << 16u;
 
 // The range is refilled with a byte as soon as it is below this.
 inline constexpr std::uint32_t kLeastRange = 1u << 24u;
 
-// Zero bytes at the end that encoders leave out, at most.
+// Maximum number of zero bytes at the end that encoders omit.
 inline constexpr int kTrailingZeros = 4;
 
 /// Writes decisions.
@@ -40,7 +40,7 @@ class RangeEncoder {
     }
     return value;
   }
-  /// Writes the lowest `count` bits of a number, 0 to 32, none of them more probable than another.
+  /// Writes the lowest `count` bits of a number, 0 to 32, each with probability 1/2.
   std::uint32_t bits(int count, std::uint32_t value) {
     for (int i = count - 1; i >= 0; --i) bit(kProbabilityOne / 2, (value >> i & 1u) != 0);
     return value;
@@ -48,8 +48,8 @@ class RangeEncoder {
 
   /// The bytes of all decisions.
   std::vector<std::byte> finish() {
-    // Any number within the range will do: the one that ends in zeros, which decoders read past the
-    // end, and which are left out
+    // Any number within the range is valid: choose the one that ends in zeros, and omit these,
+    // since decoders read zeros past the end
     low_ = (low_ + kLeastRange - 1) & ~std::uint64_t{kLeastRange - 1};
     for (int i = 0; i < 5; ++i) shift_low();
     for (int i = 0; i < kTrailingZeros && !bytes_.empty() && bytes_.back() == std::byte{0}; ++i) {
@@ -59,12 +59,13 @@ class RangeEncoder {
   }
 
  private:
-  /// Moves the highest byte of `low_` out. A byte of 255 waits, since a carry may still come.
+  /// Outputs the highest byte of `low_`. Bytes of 255 are delayed, since a carry may still change
+  /// them.
   void shift_low() {
     if (low_ < 0xFF000000u || low_ > 0xFFFFFFFFu) {
       const auto carry = static_cast<std::uint8_t>(low_ >> 32u);
       for (; waiting_ > 0; --waiting_) {
-        // The first byte of all is always 0, and left out
+        // The very first byte is always 0, and omitted
         if (started_) bytes_.push_back(static_cast<std::byte>(cache_ + carry));
         started_ = true;
         cache_ = 0xFF;
@@ -83,7 +84,7 @@ class RangeEncoder {
   bool started_ = false;
 };
 
-/// Reads decisions from any bytes. Past their end are zeros.
+/// Reads decisions from any bytes, with zeros past their end.
 class RangeDecoder {
  public:
   static constexpr bool kWrites = false;
@@ -92,7 +93,7 @@ class RangeDecoder {
     for (int i = 0; i < 4; ++i) code_ = code_ << 8u | next();
   }
 
-  /// Reads a decision that is a 1 with this probability. What else is passed does not matter.
+  /// Reads a decision that is a 1 with this probability. The second argument is ignored.
   bool bit(std::uint32_t probability, bool /*value*/ = false) {
     const auto bound = static_cast<std::uint32_t>((std::uint64_t{range_} * probability) >> 16u);
     const bool value = code_ < bound;
@@ -115,10 +116,10 @@ class RangeDecoder {
     return value;
   }
 
-  /// Whether more was read than is there and the zeros that an encoder leaves out: these bytes come
-  /// from no encoder.
+  /// Whether more was read than the bytes and the zeros that an encoder omits: no encoder wrote
+  /// these bytes.
   bool overrun() const { return past_end_ > kTrailingZeros; }
-  /// Bytes that are left unread.
+  /// Number of unread bytes.
   std::size_t left() const { return bytes_.size(); }
 
  private:

@@ -10,14 +10,14 @@
 
 namespace lambent::stream {
 
-/// What is expected of a number that is mostly small.
+/// Models of a signed number that is mostly small.
 struct SignedNumberModels {
   static constexpr int kPrefix = 10;
   BitModel nonzero, negative;
   std::array<BitModel, kPrefix> size;
 };
 
-/// Codes a number within -65,536 to 65,536. What no encoder wrote becomes one of these, too.
+/// Codes a number within -65,536 to 65,536. Corrupt input decodes to a number in this range, too.
 template <class Coder>
 int code_signed(Coder& coder, SignedNumberModels& models, int value) {
   if (!code_bit(coder, models.nonzero, value != 0)) return 0;

@@ -29,7 +29,7 @@ CameraInput input_of(const Camera& camera) {
 EditTarget target_of(const Edit& edit) {
   if (const auto* light = std::get_if<LightInput>(&edit)) return {edit.index(), light->light};
   if (const auto* object = std::get_if<ObjectInput>(&edit)) return {edit.index(), object->instance};
-  // Both turn the sun
+  // Both edits turn the sun
   return {std::variant_npos, 0};
 }
 
@@ -45,7 +45,7 @@ Edit merged(const Edit& earlier, const Edit& later) {
   return both;
 }
 
-/// What there was before an edit.
+/// The state before an edit.
 struct SceneEditor::Undo {
   int light = -1, instance = -1;
   std::optional<Light> light_before;
@@ -135,7 +135,7 @@ Expected<std::vector<SceneEditor::Refused>> SceneEditor::apply(std::span<const E
   }
   if (applied.empty()) return refused;
   if (world_.update()) return refused;
-  // One of them cannot be: all are taken back, and each is tried alone
+  // At least one edit is invalid: revert all of them, and try each alone
   for (std::size_t i = undos.size(); i-- > 0;) take_back(undos[i]);
   if (const auto back = world_.update(); !back) return tl::unexpected(back.error());
   for (const std::size_t i : applied) {

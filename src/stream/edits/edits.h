@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What clients say of a scene, as the scene has it: cameras, and edits of what all share.
+// Converts inputs of clients to the scene's types: cameras, and edits of the shared scene.
 #pragma once
 
 #include <cstddef>
@@ -19,36 +19,37 @@
 
 namespace lambent::stream {
 
-/// The matrix of a camera that a client sent.
+/// The camera that a client sent.
 Camera camera_of(const CameraInput& input);
-/// The other way round; the camera must be a perspective one.
+/// The inverse of camera_of; the camera must be a perspective one.
 CameraInput input_of(const Camera& camera);
 
 using Edit = std::variant<TimeOfDay, SunInput, LightInput, ObjectInput>;
 
-/// What an edit changes: two that change the same thing differ in nothing else.
+/// Identifies what an edit changes: it is equal for edits of the same object.
 using EditTarget = std::pair<std::size_t, std::uint32_t>;
 EditTarget target_of(const Edit& edit);
 
-/// The later of two edits of one target, with what it leaves of the earlier one.
+/// The later of two edits of one target, with those numbers of the earlier one that it does not
+/// replace.
 Edit merged(const Edit& earlier, const Edit& later);
 
 /// Applies edits of clients to a scene that has its own sun.
 class SceneEditor {
  public:
-  /// Refers to both, which must outlive it.
+  /// Refers to scene and world, which must outlive it.
   SceneEditor(Scene& scene, World& world);
 
-  /// An edit that the scene or the world refused: its number in the list, and why.
+  /// An edit that the scene or the world refused: its index in the list, and the reason.
   struct Refused {
     std::size_t edit = 0;
     std::string why;
   };
-  /// Applies the edits in their order, and has the world follow. The scene stays as it was in what
-  /// was refused. Fails, as our bug would, where the world refuses what it accepted before.
+  /// Applies the edits in order, and updates the world. Refused edits do not change the scene.
+  /// Fails where the world refuses a state that it accepted before, which would be a bug.
   Expected<std::vector<Refused>> apply(std::span<const Edit> edits);
 
-  /// The edit that makes a target that was edited as it was when the editor was made.
+  /// The edit that restores the state of an edited target at the construction of the editor.
   Edit original(const EditTarget& target) const;
 
  private:

@@ -26,7 +26,7 @@ glm::vec3 sun_direction(float hours) {
 }
 
 float sun_share(float hours) {
-  // Full from some four degrees above the horizon on
+  // Full irradiance from about four degrees above the horizon on
   constexpr float kFullHeight = 0.07f;
   return std::clamp(-sun_direction(hours).y / kFullHeight, 0.0f, 1.0f);
 }

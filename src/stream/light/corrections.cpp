@@ -17,13 +17,13 @@
 namespace lambent::stream {
 namespace {
 
-// Numbers of CodedCorrection: steps an octave, and which number stands for 1.
+// Numbers of CodedCorrection: steps per octave, and the number that represents 1.
 constexpr float kSampleSteps = 4.0f, kSampleOne = 25.0f;
 constexpr float kRatioSteps = 48.0f, kRatioOne = 128.0f;
 constexpr float kDoubtSteps = 2.0f;
 
 std::uint8_t nearest(float number, int least, int bits) {
-  // Written so that NaN becomes the least
+  // Written so that NaN becomes the lowest
   const auto most = static_cast<float>((1 << bits) - 1);
   const float low = static_cast<float>(least);
   return static_cast<std::uint8_t>(number > low ? std::min(number, most) + 0.5f : low);
@@ -56,8 +56,8 @@ LearnedCorrection decode_cell(const CodedCorrection& coded) {
   return {ratio * looked_up, looked_up, samples};
 }
 
-// The place of a block: what its surfaces face along, its level and volume; and where it is, from
-// which coordinates are told one after the other.
+// The key of a block: `kind` has the direction that its surfaces face, its level and its volume;
+// `zyx` its coordinates, in the order in which they are coded.
 struct Place {
   std::uint32_t kind;
   std::array<int, 3> zyx;  // -32,768 to 32,767 each
@@ -71,14 +71,14 @@ Place place_of(const CorrectionKey& key) {
 struct BlockModels {
   static constexpr int kKindBits = 16;
   BitModel same_kind;
-  // Of a coordinate by whether those before it are the same as in the block before
+  // Models of a coordinate, by whether the preceding ones equal those of the block before
   std::array<std::array<SignedNumberModels, 2>, 3> coordinates;
   std::array<std::array<BitModel, 1 << CodedCorrection::kSampleBits>, 2> samples;
   std::array<BitModel, 1 << CodedCorrection::kDoubtBits> doubt;
   SignedNumberModels ratio;
 };
 
-/// Codes a number of so many bits, the highest first.
+/// Codes a number bit by bit, the highest first; the models form a binary tree.
 template <class Coder, std::size_t Size>
 std::uint8_t code_tree(Coder& coder, std::array<BitModel, Size>& models, std::uint8_t value) {
   constexpr int kBits = std::bit_width(Size) - 1;
@@ -89,7 +89,7 @@ std::uint8_t code_tree(Coder& coder, std::array<BitModel, Size>& models, std::ui
   return static_cast<std::uint8_t>(node - Size);
 }
 
-/// Codes the cells of a block. Returns false on what no encoder wrote.
+/// Codes the cells of a block. Returns false on data that no encoder wrote.
 template <class Coder>
 bool code_cells(Coder& coder, BlockModels& models, CodedCorrectionBlock& block) {
   int expected = static_cast<int>(kRatioOne);
@@ -107,7 +107,7 @@ bool code_cells(Coder& coder, BlockModels& models, CodedCorrectionBlock& block) 
   return true;
 }
 
-/// Codes a block that follows on one at `before`, which becomes its own place.
+/// Codes a block relative to the one at `before`, and sets `before` to its place.
 template <class Coder>
 bool code_block(Coder& coder, BlockModels& models, Place& before, CodedCorrectionBlock& block) {
   Place place = place_of(block.key);
@@ -131,7 +131,7 @@ bool code_block(Coder& coder, BlockModels& models, Place& before, CodedCorrectio
   return code_cells(coder, models, block);
 }
 
-/// The part of the blocks that is in a piece.
+/// The blocks of a piece.
 template <class Block>
 std::span<Block> piece_of(std::size_t piece, std::span<Block> blocks) {
   const std::size_t first = piece * kPieceBlocks;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Corrections of lookups, as a light stream tells them: of each cell how many samples it rests on,
-// how many of these are trusted, and the ratio that they found.
+// Lookup corrections in a light stream: for each cell the number of its samples, how many of these
+// are trusted, and the mean ratio.
 #pragma once
 
 #include <array>
@@ -19,9 +19,9 @@ namespace lambent::stream {
 struct CodedCorrection {
   static constexpr int kSampleBits = 6, kRatioBits = 8, kDoubtBits = 4;
 
-  std::uint8_t samples = 0;  ///< 0: none. Else 2^((n - 1) / 4 - 6).
+  std::uint8_t samples = 0;  ///< 0: none. Else 2^((n - 1) / 4 - 6) samples.
   std::uint8_t ratio = 0;    ///< Gathered over looked up: 0, or 2^((n - 128) / 48).
-  std::uint8_t doubt = 0;    ///< So many of the samples are trusted: 2^(-n / 2).
+  std::uint8_t doubt = 0;    ///< Trusted share of the samples: 2^(-n / 2).
 
   bool operator==(const CodedCorrection&) const = default;
 };
@@ -31,34 +31,34 @@ struct CodedCorrectionBlock {
   std::array<CodedCorrection, kCellCorners> cells;
 };
 
-/// Blocks as they are sent, in an order of their own, and back.
+/// Convert blocks to the coded form, in the order of coding, and back.
 std::vector<CodedCorrectionBlock> encode_corrections(std::span<const CorrectionBlock> blocks);
 std::vector<CorrectionBlock> decode_corrections(std::span<const CodedCorrectionBlock> blocks);
 
-/// Blocks are sent in pieces of so many, the last of fewer: some 70 kB each.
+/// Number of blocks in a piece, except the last: some 70 kB each.
 inline constexpr std::size_t kPieceBlocks = 14'336;
-/// A piece has at most so many bytes for each of its blocks, and kMostBlockBytes more. Ten times
-/// what most take.
+/// A piece has at most this many bytes per block, and kMostBlockBytes more; ten times the usual
+/// size.
 inline constexpr std::size_t kMostBlockBytes = 64;
 
 inline std::size_t correction_pieces(std::size_t blocks) {
   return (blocks + kPieceBlocks - 1) / kPieceBlocks;
 }
 
-/// Writes one piece of all blocks.
+/// Codes piece number `piece` of all blocks.
 std::vector<std::byte> write_corrections(std::size_t piece,
                                          std::span<const CodedCorrectionBlock> blocks);
 
-/// All pieces. An empty one is to be coded, or is not here.
+/// All pieces. An empty one is not coded yet, or was not received.
 using CorrectionPieces = std::vector<std::vector<std::byte>>;
-/// Codes the pieces that are to be coded.
+/// Codes the empty pieces.
 void write_pieces(std::span<const CodedCorrectionBlock> blocks, CorrectionPieces& pieces);
-/// Messages of those pieces that are there, sent after an update.
+/// Messages of the pieces that are not empty, sent after an update.
 std::vector<LightMessage> correction_messages(std::uint32_t stream, std::uint64_t update,
                                               std::uint64_t number, const CorrectionPieces& pieces);
 
-/// Reads a piece of as many blocks as there are in all, of a field of so many volumes, and returns
-/// which it is. Fails on what no encoder wrote, and leaves the blocks as they were.
+/// Reads a piece into `blocks`, which has all blocks of a field with `volumes` volumes, and returns
+/// its number. Fails on data that no encoder wrote, and then leaves the blocks unchanged.
 Expected<std::size_t> read_corrections(std::span<const std::byte> body, std::uint32_t volumes,
                                        std::span<CodedCorrectionBlock> blocks);
 

@@ -20,7 +20,7 @@
 
 namespace lambent::stream {
 
-/// Geometry that was received, and what follows from it.
+/// Geometry that was received, and data derived from it.
 struct ReceivedGeometry : PartialGeometry {
   ReceivedGeometry(const MessageHeader& header, PartialGeometry received)
       : PartialGeometry(std::move(received)),
@@ -30,7 +30,7 @@ struct ReceivedGeometry : PartialGeometry {
     lay_out();
     forget_corrections();
   }
-  /// Brings `layout` and `grids` up to date with the geometry.
+  /// Updates `layout` and `grids` from the geometry.
   void lay_out() {
     layout = layout_of(geometry);
     grids.clear();
@@ -39,7 +39,7 @@ struct ReceivedGeometry : PartialGeometry {
 
   std::uint32_t stream;
   std::uint64_t version;
-  /// Has no pieces of its corrections any more.
+  /// Discards all pieces of its corrections.
   void forget_corrections() { pieces.assign(correction_pieces(geometry.corrections.size()), {}); }
   bool is_whole() const {
     return std::all_of(here.begin(), here.end(), [](std::uint8_t one) { return one != 0; });
@@ -47,7 +47,7 @@ struct ReceivedGeometry : PartialGeometry {
   bool has_corrections() const {
     return std::none_of(pieces.begin(), pieces.end(), [](const auto& one) { return one.empty(); });
   }
-  /// Takes the pieces that another one has of the same corrections.
+  /// Copies the pieces of the same corrections from another geometry.
   void take_corrections(const ReceivedGeometry& other) {
     if (other.stream != stream || other.pieces.size() != pieces.size() ||
         other.geometry.corrections_number != geometry.corrections_number ||
@@ -61,26 +61,28 @@ struct ReceivedGeometry : PartialGeometry {
   LightLayout layout;
   TileBasis basis;
   std::vector<FieldGrid> grids;
-  CorrectionPieces pieces;  ///< As they came.
+  CorrectionPieces pieces;  ///< As received.
 };
 
 struct LightDecoder::State {
   std::size_t most_bytes = 0;
-  std::optional<ReceivedGeometry> current;  ///< Of `light`; empty before the first key.
-  std::optional<ReceivedGeometry> next;     ///< Of a key that is still to come; or parts of it.
+  /// The geometry of `light`; empty before the first key.
+  std::optional<ReceivedGeometry> current;
+  std::optional<ReceivedGeometry> next;  ///< The geometry of the next key, or parts of it.
   LightState light;
   bool lost = false;                      ///< A change is missing.
   std::unique_ptr<TextureReader> reader;  ///< Null: textures are refused.
-  TexturePicture picture;                 ///< The last texture's.
-  /// How the light came; what follows must come in the same way.
+  TexturePicture picture;                 ///< The last decoded texture.
+  /// The form in which light was received; later messages must have the same.
   enum class Way : std::uint8_t { coded, textures, regions };
   Way way = Way::coded;
-  std::optional<RegionStates> regions;  ///< Where it came by regions.
-  std::uint64_t geometries = 0;         ///< Keys so far that were of another geometry.
+  std::optional<RegionStates> regions;  ///< If received by regions.
+  std::uint64_t geometries = 0;         ///< Number of keys so far with a new geometry.
   std::vector<int> changed;
-  bool corrected = false;  ///< With the last message there are other corrections, all of them.
+  bool corrected = false;  ///< The last message completed new corrections.
   std::vector<std::int32_t> levels;
-  GeometrySections sections;  ///< Of `current`, for others: those that were coded and still are so.
+  /// Coded sections of `current`, for `join`; empty where not coded, or changed since.
+  GeometrySections sections;
 
   Expected<void> receive(std::span<const std::byte> bytes);
 
@@ -91,18 +93,18 @@ struct LightDecoder::State {
   Expected<void> receive_texture(const OpenedMessage& message);
   Expected<void> receive_regions(const OpenedMessage& message);
   Expected<void> receive_whole_regions(const MessageHeader& header, const RegionBody& body);
-  /// Whether a change goes on in the way in which the light came.
+  /// Fails where a change has another form than the light so far.
   Expected<void> check_way(const MessageHeader& header, Way now);
-  /// Whether a key can be taken: its geometry is here, and it does not come too late.
+  /// Fails where a key cannot be applied: its geometry is missing, or it is too late.
   Expected<void> check_key(const MessageHeader& header);
   bool is_of_next(const MessageHeader& header) const {
     return next && next->is_whole() && next->stream == header.stream &&
            next->version == header.geometry;
   }
-  /// The state of a key, of the geometry that is next where it is of that.
+  /// Sets the state to that of a key, and the geometry to `next` if the key belongs to it.
   void take_key(const MessageHeader& header, LightState key);
   Expected<void> receive_delta(const OpenedMessage& message);
-  /// Whether a change leads on from this state, with this version of the geometry.
+  /// Fails where a change does not follow this state, with this version of the geometry.
   Expected<void> check_follows(const MessageHeader& header, std::uint64_t base_geometry);
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The geometry of a field as it is, and what has changed of it since it was sent.
+// The current geometry of a field, and its changes since it was sent.
 #include <cmath>
 
 #include "core/parallel.h"
@@ -10,10 +10,10 @@
 namespace lambent::stream {
 namespace {
 
-constexpr std::size_t kChunk = 64;  // probes that one core takes at a time
+constexpr std::size_t kChunk = 64;  // probes per task
 
-/// Calls visit(texel, moments [m, m^2]) for the texels of a probe's tile, as
-/// ProbeStore::moments_texel finds them.
+/// Calls visit(texel, moments [m, m^2]) for the texels of a probe's tile, as from
+/// ProbeStore::moments_texel.
 template <class Visit>
 void for_each_moments(const ProbeStore& store, const ProbeGrid& grid, int probe, Visit visit) {
   const int n = store.distance_texels(), words = store.words_per_distance_texel();
@@ -45,7 +45,7 @@ bool is_lit(ProbeState state) {
   return state != ProbeState::off;
 }
 
-/// Whether distances that were sent are off by more than the threshold.
+/// Whether the error of distances that were sent exceeds the threshold.
 bool is_off(const ProbeStore& store, const FieldGeometry& sent, int probe, float threshold) {
   const ProbeGrid& grid = store.grid_of(probe);
   const float longest = max_probe_distance(grid);

@@ -14,7 +14,7 @@ CodedMoments encode_moments(const glm::vec2& moments, float longest) {
     const float steps = std::clamp(share, 0.0f, 1.0f) * static_cast<float>(most);
     return static_cast<std::uint8_t>(std::max(static_cast<int>(steps + 0.5f), least));
   };
-  // A mean of 0 stands for what is not known
+  // A mean of 0 represents an unknown distance
   return {code(mean, 1, CodedMoments::kMaxMean),
           code(std::sqrt(deviation), 0, CodedMoments::kMaxDeviation)};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a light stream tells of a field besides its light: grids; where probes stand, what they are
-// for, and how far what surrounds them is; and corrections of lookups.
+// The geometry of a field in a light stream: grids; places, states and distances of probes; and
+// lookup corrections.
 #pragma once
 
 #include <array>
@@ -17,9 +17,9 @@
 
 namespace lambent::stream {
 
-/// Moments of distance as they are sent. The mean is in steps of 1 / 127 of the longest distance
-/// that the grid stores, 0 where nothing is known; the standard deviation is in proportion to the
-/// square of its number, of which 63 is half the longest distance, the most that there can be.
+/// Quantised moments of distance. The mean is in steps of 1 / 127 of the longest distance that the
+/// grid stores, 0 where it is unknown. The standard deviation is in proportion to the square of its
+/// number, where 63 is half the longest distance, the largest possible value.
 struct CodedMoments {
   static constexpr int kMaxMean = 127, kMaxDeviation = 63;
 
@@ -43,7 +43,7 @@ inline float decode_deviation(const CodedMoments& moments, float longest) {
           (CodedMoments::kMaxDeviation * CodedMoments::kMaxDeviation));
 }
 
-/// Mean distance [m] and mean squared distance [m^2], and back.
+/// Convert mean distance [m] and mean squared distance [m^2] to coded moments, and back.
 CodedMoments encode_moments(const glm::vec2& moments, float longest);
 glm::vec2 decode_moments(const CodedMoments& moments, float longest);
 
@@ -51,18 +51,18 @@ glm::vec2 decode_moments(const CodedMoments& moments, float longest);
 struct FieldGeometry {
   int irradiance_texels = 4;
   int distance_texels = 14;
-  std::vector<Volume> volumes;  ///< Their grids' `first` counts through all.
+  std::vector<Volume> volumes;  ///< Their grids' `first` counts the probes of all volumes.
   std::vector<std::uint32_t> offsets;
   std::vector<ProbeState> states;
   std::vector<CodedMoments> moments;  ///< Tiles without gutter, one after the other.
   std::vector<CodedCorrectionBlock> corrections;
-  std::uint64_t corrections_number = 0;  ///< Of the geometry that they came to be with.
+  std::uint64_t corrections_number = 0;  ///< The number of the geometry with which they appeared.
 
   int probes() const { return static_cast<int>(offsets.size()); }
   std::size_t tile() const { return static_cast<std::size_t>(distance_texels) * distance_texels; }
   const ProbeGrid& grid_of(int probe) const;
-  /// Whether another one has as many probes, in tiles and volumes of the same kind, so that what
-  /// changed from one to the other can be told.
+  /// Whether another one has as many probes, in tiles and volumes of the same kind, so that the
+  /// changes between both can be coded.
   bool same_kind(const FieldGeometry& other) const;
 };
 
@@ -73,17 +73,16 @@ bool same_place(const ProbeGrid& a, const ProbeGrid& b);
 FieldGeometry kind_of(const IrradianceField& field);
 /// The geometry of a field.
 FieldGeometry geometry_of(const IrradianceField& field);
-/// What a field has learned of how far lookups are off.
+/// The lookup corrections of a field.
 std::vector<CodedCorrectionBlock> corrections_of(const IrradianceField& field);
 
-/// What coding of light needs to know of a geometry.
+/// The layout of a geometry's light, for its coding.
 LightLayout layout_of(const FieldGeometry& geometry);
 
-/// Brings `sent` up to date with a field of the same kind: its grids, the probes that stand
-/// elsewhere or came into or out of solid matter, and of each `stride`-th other probe, from number
-/// `first` on, those whose distances are off by more than `threshold` [smallest spacings] at root
-/// mean square. Leaves corrections alone. Returns the probes that were brought up to date, in
-/// ascending order.
+/// Updates `sent` from a field of the same kind: its grids, the probes that moved or came into or
+/// out of solid matter, and, of every `stride`-th other probe, from number `first` on, those whose
+/// distances have a root mean square error above `threshold` [smallest spacings]. Does not change
+/// corrections. Returns the updated probes, in ascending order.
 std::vector<int> follow(const IrradianceField& field, float threshold, int first, int stride,
                         FieldGeometry& sent);
 

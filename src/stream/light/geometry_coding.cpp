@@ -15,24 +15,24 @@
 namespace lambent::stream {
 namespace {
 
-// Sizes [bytes] of what stands before coded probes.
+// Sizes of headers before coded probes [bytes].
 constexpr std::size_t kKindBytes = 24, kVolumeBytes = 124, kPlaceBytes = 60;
 
-// Bytes of a client's state: coefficients and levels, and a decoded tile, of a texel; an encoded
-// and two decoded moments of a texel; the rest of a probe; a block of corrections, encoded, as it
-// came, and decoded.
+// Bytes of a client's state per texel of irradiance (coefficients, levels, and a decoded tile), per
+// texel of distance (encoded moments and two decoded ones), per probe (the rest), and per block of
+// corrections (encoded, as received, and decoded).
 constexpr std::uint64_t kTexelBytes = 40, kMomentsBytes = 12, kProbeBytes = 128,
                         kBlockBytes = 2 * sizeof(CodedCorrectionBlock) + kMostBlockBytes;
 
-// In place of the number of blocks: corrections are as they were.
+// Value of the number of blocks if corrections have not changed.
 constexpr std::uint32_t kSameCorrections = 0xFFFFFFFFu;
 
-/// The blocks that a field of so many probes has room for.
+/// The largest number of blocks in a field of `probes` probes.
 std::uint64_t most_blocks(std::uint64_t probes) {
   return std::uint64_t{kCorrectionBucketsPerProbe} * kCorrectionBucket * probes;
 }
 
-/// Of a client's state.
+/// Size of a client's state [bytes].
 std::uint64_t state_bytes(const FieldGeometry& kind, std::uint64_t probes, std::uint64_t blocks) {
   const auto texels = static_cast<std::uint64_t>(kind.irradiance_texels) * kind.irradiance_texels;
   return probes * (kTexelBytes * texels + kMomentsBytes * kind.tile() + kProbeBytes) +
@@ -55,7 +55,7 @@ void write_ivec3(const ivec3& v, ByteWriter& out) {
   for (int axis = 0; axis < 3; ++axis) out.u32(static_cast<std::uint32_t>(v[axis]));
 }
 
-/// Where a grid is: what scrolling changes.
+/// Writes the place of a grid, which scrolling changes.
 void write_place(const ProbeGrid& grid, ByteWriter& out) {
   write_vec3(grid.origin_ws, out);
   write_ivec3(grid.scroll, out);
@@ -64,7 +64,7 @@ void write_place(const ProbeGrid& grid, ByteWriter& out) {
   write_vec3(grid.fade_cells, out);
 }
 
-/// Returns whether what it reads makes sense.
+/// Reads the place of a grid; returns whether it is valid.
 bool read_place(ByteReader& in, ProbeGrid& grid) {
   grid.origin_ws = read_vec3(in);
   bool sound = true;
@@ -125,7 +125,7 @@ std::size_t section_count(int probes) {
   return (static_cast<std::size_t>(probes) + kSectionProbes - 1) / kSectionProbes;
 }
 
-/// Codes the records of a section. Returns false on what no encoder wrote.
+/// Codes the records of a section. Returns false on data that no encoder wrote.
 template <class Coder>
 bool code_section(Coder& coder, std::size_t section, FieldGeometry& geometry) {
   ProbeModels models;
@@ -138,7 +138,7 @@ bool code_section(Coder& coder, std::size_t section, FieldGeometry& geometry) {
   return true;
 }
 
-/// Sections that come in one part.
+/// The sections in one part.
 struct CodedSections {
   std::size_t first = 0;
   std::vector<std::span<const std::byte>> bytes;
@@ -166,12 +166,12 @@ Expected<CodedSections> read_sections(std::span<const std::byte> bytes, std::siz
   return sections;
 }
 
-/// How many volumes and blocks of corrections there are.
+/// Numbers of volumes and of blocks of corrections.
 struct Counts {
   std::uint32_t volumes = 0, blocks = 0;
 };
 
-/// Reads what the tiles are like and how much there is.
+/// Reads the sizes of tiles, and the numbers of volumes and blocks.
 Expected<Counts> read_kind(ByteReader& in, FieldGeometry& geometry) {
   const std::uint32_t irradiance_texels = in.u32(), distance_texels = in.u32();
   const Counts counts = {in.u32(), in.u32()};
@@ -188,7 +188,7 @@ Expected<Counts> read_kind(ByteReader& in, FieldGeometry& geometry) {
   return counts;
 }
 
-/// What a part begins with: a geometry without any room for its probes and corrections.
+/// The header of a part: a geometry whose probes and corrections are not allocated yet.
 struct Head {
   FieldGeometry geometry;
   std::uint64_t probes = 0;
@@ -218,7 +218,7 @@ Expected<Head> read_head(ByteReader& in, std::size_t most_bytes) {
   return Head{std::move(geometry), probes, counts->blocks};
 }
 
-/// A geometry of which nothing has come yet.
+/// A geometry of which nothing was received yet.
 PartialGeometry begin(Head&& head) {
   PartialGeometry begun{std::move(head.geometry), {}};
   begun.geometry.corrections.resize(head.blocks);

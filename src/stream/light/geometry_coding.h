@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bodies of messages of geometry.
+// Coding of the bodies of geometry messages.
 #pragma once
 
 #include <cstddef>
@@ -14,51 +14,52 @@
 
 namespace lambent::stream {
 
-/// Probes' records are in sections, each with models of its own, so that all cores code them, and
-/// those that have not changed need not be coded again.
+/// Number of probes in a section. Each section has models of its own, so that sections are coded in
+/// parallel, and unchanged ones are not coded again.
 inline constexpr int kSectionProbes = 128;
-/// A message has so many sections at most, so that clients decode these while the next ones come.
+/// Maximum number of sections in a message, so that clients decode these while the next ones
+/// arrive.
 inline constexpr std::size_t kPartSections = 4;
-/// The coded sections of a geometry; an empty one is to be coded.
+/// The coded sections of a geometry; an empty one is not coded yet.
 using GeometrySections = std::vector<std::vector<std::byte>>;
-/// Has the sections of these probes coded again.
+/// Clears the sections of these probes, so that they are coded again.
 void forget_sections(std::span<const int> probes, GeometrySections& sections);
 
-/// Writes all of a geometry, in one or several parts, but for its corrections, of which it tells
-/// that they come. Codes those sections that are to be coded; no sections: all of them.
+/// Writes all of a geometry, in one or several parts. Of its corrections, only the number of blocks
+/// is written. Codes empty sections; an empty list means all.
 std::vector<std::vector<std::byte>> write_geometry(const FieldGeometry& geometry,
                                                    GeometrySections& sections);
 
-/// The same as messages.
+/// write_geometry() as messages.
 std::vector<LightMessage> geometry_messages(const MessageHeader& header,
                                             const FieldGeometry& geometry,
                                             GeometrySections& sections);
 
-/// A geometry of which some parts may not have come yet.
+/// A geometry of which some parts may not have been received yet.
 struct PartialGeometry {
-  FieldGeometry geometry;          ///< Corrections are as many as will come, and hold nothing.
-  std::vector<std::uint8_t> here;  ///< Of each section: 1 where its probes' records have come.
+  FieldGeometry geometry;          ///< Corrections have their final number, but no values.
+  std::vector<std::uint8_t> here;  ///< Per section: 1 if its probes' records were received.
 };
 
-/// Reads a part, of a geometry that has begun to come, or else of a new one. Sections that are
-/// there stay as they are. Fails on what no encoder wrote, and where the client's state would take
-/// more than `most_bytes`, before it takes any.
+/// Reads a part of a geometry that was partly received, or of a new one. Sections that were already
+/// received are not changed. Fails on data that no encoder wrote, and where the client's state
+/// would take more than `most_bytes`, before any is allocated.
 Expected<void> read_geometry(std::span<const std::byte> body, std::size_t most_bytes,
                              PartialGeometry& geometry);
 
-/// Writes the grids and some probes, in ascending order, of a geometry that was `before`, and where
-/// it has other corrections, that these come.
+/// Writes the changes from `before` to `now`: the grids, some probes, in ascending order, and
+/// whether there are other corrections, which follow in messages of their own.
 std::vector<std::byte> write_changes(const FieldGeometry& before, const FieldGeometry& now,
                                      std::span<const int> probes, bool other_corrections);
 
-/// What write_changes told of.
+/// The contents of a message of write_changes.
 struct GeometryChanges {
   std::vector<int> probes;
-  bool corrections = false;  ///< There are others; the geometry's hold nothing.
+  bool corrections = false;  ///< There are others, which the geometry does not have yet.
 };
 
-/// Reads what write_changes wrote, and changes the geometry. Where it fails, the geometry is as it
-/// was.
+/// Reads the output of write_changes, and updates the geometry. On failure the geometry is
+/// unchanged.
 Expected<GeometryChanges> read_changes(std::span<const std::byte> body, std::size_t most_bytes,
                                        FieldGeometry& geometry);
 

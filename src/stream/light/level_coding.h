@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// How levels, the quantised numbers of a light stream, are written and read: one description for
-// both. A probe that has none takes one decision; else each channel says which degrees have some,
-// and these which functions. What is expected of a decision follows from the probe's three
-// neighbours that come before it, from the first channel, and from the updates before.
+// Coding of levels, the quantised numbers of a light stream, with one function for writing and
+// reading. A probe without levels takes one decision; otherwise decisions say which degrees of each
+// channel have levels, and then which functions of these. The contexts of a decision are the
+// probe's three preceding neighbours, the first channel, and earlier updates.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace lambent::stream {
 
-// Magnitudes of levels are cut off here, in what no encoder wrote: far above any that are of use.
+// Magnitudes of levels are clamped to this on reading; encoders write far smaller ones.
 inline constexpr std::uint32_t kMaxLevel = 1u << 28u;
 
 /// Codes the levels of all probes, one after the other. A Coder is a RangeEncoder, which writes
@@ -47,14 +47,14 @@ class LevelCoder {
     activity_[index] = sum > kActive ? 2 : 1;
   }
 
-  /// For ProbeHistory::update: which of a probe's numbers had something.
+  /// For ProbeHistory::update: bits of those numbers of a probe that had levels.
   std::uint32_t something(int index) const { return something_[index]; }
 
  private:
-  // Probes whose levels sum up to more than this are the active ones.
+  // Sum of a probe's magnitudes above which its activity is 2.
   static constexpr std::uint64_t kActive = 2;
 
-  /// A number of the three probes before this one; 0 of those that there are not.
+  /// The sum of a number over the three preceding neighbours; missing ones count as 0.
   template <class Number>
   auto sum_before(Number number) const {
     decltype(number(0)) sum = 0;
@@ -79,7 +79,7 @@ class LevelCoder {
     return code_bit(coder_, model, any);
   }
 
-  /// Of a channel and a degree, which models are for; degrees from 3 on are taken together.
+  /// The index of a channel and a degree in arrays of models; degrees from 3 on share theirs.
   static int group_of(int channel, int degree) {
     return channel * LevelModels::kDegrees + std::min(degree, LevelModels::kDegrees - 1);
   }
@@ -94,7 +94,7 @@ class LevelCoder {
     group_ = group_of(channel, degree);
     const int begin = degree * degree, end = std::min((degree + 1) * (degree + 1), layout_.texels);
     const std::span levels(own_ + channel * layout_.texels, layout_.texels);
-    // How large levels will be follows from those of the degree before, and of the first channel
+    // Predict the size of levels from those of the preceding degree, and of the first channel
     const int before_begin = degree > 0 ? (degree - 1) * (degree - 1) : 0;
     const std::int64_t before = magnitudes(levels.subspan(before_begin, begin - before_begin));
     const std::int64_t first =
@@ -117,13 +117,13 @@ class LevelCoder {
     something_[probe_] |= 1u << group_;
     bool found = false;
     for (int function = begin; function < end; ++function) {
-      // The last one is what there is, where no other was
+      // If no other function had a level, the last one must have one
       const bool sure = function + 1 == end && !found;
       found = code_level(channel, function, sure) || found;
     }
   }
 
-  /// What the three probes before have at the same place.
+  /// The levels of the same function in the three preceding neighbours.
   struct Neighbours {
     std::int64_t sum = 0, magnitudes = 0;
     int signs = 0, which = 0;
@@ -141,7 +141,7 @@ class LevelCoder {
     return found;
   }
 
-  /// Codes a level, and returns whether it is not 0; it surely is where `sure` says so.
+  /// Codes a level, and returns whether it is not 0. With `sure`, it is known not to be 0.
   bool code_level(int channel, int function, bool sure) {
     const std::size_t number = static_cast<std::size_t>(channel) * layout_.texels + function;
     std::int32_t& level = own_[number];
@@ -209,7 +209,7 @@ class LevelCoder {
   std::span<std::int32_t> levels_;
   std::vector<std::uint32_t> something_;
   std::vector<std::uint8_t> activity_;
-  // Of the probe that is being coded, and its channel and degree
+  // State of the current probe, channel and degree
   int probe_ = 0;
   std::int32_t* own_ = nullptr;
   int group_ = 0, size_ = 0, count_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What coding of levels expects, by what stands around them.
+// The probability models of levels, by context.
 #pragma once
 
 #include <algorithm>
@@ -11,14 +11,14 @@
 
 namespace lambent::stream {
 
-/// Contexts of levels. Each member is an array of models, by the numbers that its comment names.
+/// The models of levels. Each member is an array of models, indexed by the contexts in its comment.
 struct LevelModels {
   static constexpr int kChannels = 3;
   static constexpr int kDegrees = 4;     // degrees from 3 on share their models
   static constexpr int kCounts = 4;      // values of a history
-  static constexpr int kNear = 4;        // of three neighbours, how many
-  static constexpr int kSizes = 9;       // how large some levels are together: size_class()
-  static constexpr int kSigns = 3;       // which sign prevails
+  static constexpr int kNear = 4;        // how many of three neighbours
+  static constexpr int kSizes = 9;       // classes of a sum of magnitudes: size_class()
+  static constexpr int kSigns = 3;       // the prevailing sign
   static constexpr int kFunctions = 17;  // functions from 16 on share their models
   static constexpr int kMagnitudes = 12;
   static constexpr int kActivities = 7;  // sums of three activities of 0 to 2
@@ -29,34 +29,37 @@ struct LevelModels {
   template <std::size_t Inputs, std::size_t... Sizes>
   using Mixes = std::array<MixWeights<Inputs>, (Sizes * ...)>;
 
-  /// Probe has any level: neighbours' activity, its history, history of the probes after it.
+  /// Whether a probe has any level, by the neighbours' activity, its history, and the history of
+  /// the probes after it.
   Models<kActivities, kCounts, kAfter> coded;
 
-  /// Degree has any level: channel and degree, with its history, neighbours and the first
-  /// channel's; and with the size of the levels before it.
+  /// Whether a degree has any level: by channel and degree, its history, the neighbours and the
+  /// first channel; and by channel and degree, the size of the levels before it, and the first
+  /// channel.
   Models<kChannels, kDegrees, kCounts, kNear, 2> degree_by_history;
   Models<kChannels, kDegrees, kSizes, 2> degree_by_size;
   Mixes<2, kChannels, kDegrees> degree;
 
-  /// Level is not 0: channel, function, history, whether the first channel's is not 0; channel,
-  /// degree, neighbours' size, size of the levels before it; channel, which neighbours' are not 0.
+  /// Whether a level is not 0: by channel, function, history, and whether the first channel's is
+  /// not 0; by channel, degree, the neighbours' size, and the size of the levels before it; by
+  /// channel, degree, and which neighbours' levels are not 0.
   Models<kChannels, kFunctions, kCounts, 2> nonzero_by_function;
   Models<kChannels, kDegrees, kSizes, kSizes> nonzero_by_size;
   Models<kChannels, kDegrees, 8> nonzero_by_neighbours;
   Mixes<3, kChannels, kDegrees> nonzero;
 
-  /// Level is negative: channel, degree, neighbours' sign, the first channel's; channel, degree,
-  /// size of the neighbours' sum.
+  /// Whether a level is negative: by channel, degree, the neighbours' sign, and the first
+  /// channel's; by channel, degree, and the size of the neighbours' sum.
   Models<kChannels, kDegrees, kSigns, kSigns> negative_by_sign;
   Models<kChannels, kDegrees, 2 * kSizes> negative_by_sum;
   Mixes<2, kChannels, kDegrees> negative;
 
-  /// Level is larger than so much: whether it is the first channel's, degree, neighbours' size; the
-  /// same with the size of the levels before it.
+  /// Whether a level is larger than the last index: by whether it is the first channel's, degree,
+  /// and the neighbours' size; and by the same with the size of the levels before it.
   Models<2, kDegrees, kSizes, kMagnitudes> larger_by_neighbours;
   Models<2, kDegrees, kSizes, kMagnitudes> larger_by_size;
   Mixes<2, 2, kDegrees> larger;
-  Models<kMagnitudes> escape;  ///< What is beyond kMagnitudes.
+  Models<kMagnitudes> escape;  ///< Magnitudes beyond kMagnitudes.
 
   bool operator==(const LevelModels&) const = default;
 
@@ -91,11 +94,11 @@ inline int size_class(std::int64_t sum) {
   return found;
 }
 
-/// How often a probe was coded of late: numbers of 2 bits that rise with each update in which there
-/// was something, and fall with each in which there was nothing.
+/// A probe's recent activity: counters of 2 bits that rise with each update in which there were
+/// levels, and fall with each in which there were none.
 class ProbeHistory {
  public:
-  // A number for each channel and degree, and one for the probe.
+  // One counter for each channel and degree, and one for the probe.
   static constexpr int kNumbers = 13, kProbe = 12;
   static constexpr std::uint32_t kWords = 1u << (2 * kNumbers);
 
@@ -105,7 +108,7 @@ class ProbeHistory {
 
   std::uint32_t word() const { return word_; }
   int at(int number) const { return static_cast<int>(word_ >> (2 * number) & 3u); }
-  /// Takes note of an update in which those numbers had something whose bits are set.
+  /// Updates the counters; the set bits are those with levels in this update.
   void update(std::uint32_t bits) {
     std::uint32_t next = 0;
     for (int i = 0; i < kNumbers; ++i) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kKeyHeaderBytes = 4;
 
-/// What a key expects of a coefficient: the mean of those of the lit neighbours before the probe.
+/// A key's prediction of a coefficient: the mean of those of the probe's lit preceding neighbours.
 std::int32_t expected_coefficient(const LightLayout& layout,
                                   std::span<const std::int32_t> coefficients, int probe,
                                   std::size_t number) {
@@ -42,7 +42,7 @@ void code_models(Coder& coder, LevelModels& models) {
 
 template <class Coder>
 void code_history(Coder& coder, const LightLayout& layout, std::span<ProbeHistory> history) {
-  // Of each number two bits, expected by the number before
+  // Two bits per counter, with the previous counter as context
   std::array<std::array<BitModel, 3>, std::size_t{4} * ProbeHistory::kNumbers> models;
   for (int probe = 0; probe < layout.probes(); ++probe) {
     if (layout.lit[probe] == 0) continue;
@@ -60,7 +60,7 @@ void code_history(Coder& coder, const LightLayout& layout, std::span<ProbeHistor
   }
 }
 
-/// Whether counts and weights are ones that there can be.
+/// Whether counts and weights are in their valid ranges.
 bool are_sound(const LevelModels& models) {
   bool sound = true;
   LevelModels::for_each(
@@ -75,7 +75,7 @@ bool is_coefficient(std::int64_t value) {
   return value >= -kMaxCoefficient && value <= kMaxCoefficient;
 }
 
-/// Adds a delta to the coefficients, and takes note of where it had something.
+/// Adds a delta to the coefficients, and updates the histories.
 template <class Coder>
 void apply(const LightLayout& layout, std::span<const std::int32_t> levels,
            const LevelCoder<Coder>& coded, LightState& state) {
@@ -135,7 +135,7 @@ std::vector<std::byte> write_key(const LightLayout& layout, const LightState& st
   LightState copy = state;
   code_models(coder, copy.models);
   code_history(coder, layout, copy.history);
-  // Levels are what coefficients differ by from what is expected of them
+  // Levels are the differences of coefficients from their predictions
   for (int probe = layout.probes() - 1; probe >= 0; --probe) {
     if (layout.lit[probe] == 0) continue;
     for (std::size_t i = 0; i < layout.numbers(); ++i) {

@@ -83,7 +83,7 @@ Expected<void> LightDecoder::State::receive_geometry(const OpenedMessage& messag
   }
   Expected<GeometryChanges> changes = read_changes(body, most_bytes, current->geometry);
   if (!changes) {
-    // What would come next follows on this
+    // Later messages depend on this one
     lost = true;
     return tl::unexpected(changes.error());
   }
@@ -187,7 +187,7 @@ Expected<void> LightDecoder::State::receive_texture(const OpenedMessage& message
     read = reader->read(body->pictures[i], key && i == 0, picture);
   }
   if (!read) {
-    // Pictures that come next follow on this
+    // Later pictures depend on this one
     lost = true;
     return read;
   }

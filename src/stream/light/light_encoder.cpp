@@ -17,31 +17,30 @@
 namespace lambent::stream {
 namespace {
 
-// In each update so many times fewer probes' distances are compared with what was sent.
+// Each update compares the distances of one in this many probes with those that were sent.
 constexpr int kDistanceTurns = 4;
 
 // The controller of errors. It aims at this share of the target, and an update in which an error is
 // above the target is coded again with a smaller thrift, and at last as a key.
 constexpr double kAim = 0.97;
 constexpr float kMaxThrift = 2.0f, kLeastThrift = 0.05f, kThriftStep = 0.7f;
-// By which power of aim over error the thrift changes from one update to the next.
+// From one update to the next, the thrift is multiplied by aim over error, raised to this power.
 constexpr double kThriftPower = 2.0;
 
-// A key has a unit that makes errors this share of the target or less, so that light may become
-// darker before the next one is needed.
+// A key's unit is chosen for errors of at most this share of the target, so that light may become
+// darker before the next key is needed.
 constexpr double kKeyAim = 0.8;
-// Where errors are below this share of the target in spite of the largest thrift, a key with a
-// larger unit makes the next deltas smaller than it is itself.
+// If errors are below this share of the target despite the largest thrift, a key with a larger unit
+// pays off by smaller deltas.
 constexpr double kTooExact = 0.4;
-// Light that is so many times brighter or darker than that of the last key needs another one at
-// once.
+// Light that is brighter or darker than at the last key by this factor needs a new key at once.
 constexpr double kOtherLight = 16.0;
 
-// Corrections settle as one over the root of the number of updates: they are sent again when that
-// is so many times as large, and at least so often.
+// The noise of corrections falls with the root of the number of updates: they are sent again when
+// that number has grown by kCorrectionsGrowth, but after at most 3 * kCorrectionsAtLeast updates.
 constexpr int kCorrectionsGrowth = 4, kCorrectionsAtLeast = 4096, kFirstCorrections = 4;
 
-/// With which update of a field corrections are sent again.
+/// The update of a field with which corrections are sent again.
 int due_after(int updates) {
   return updates + std::clamp((kCorrectionsGrowth - 1) * std::min(updates, kCorrectionsAtLeast),
                               kFirstCorrections, kCorrectionsAtLeast);
@@ -63,10 +62,10 @@ struct LightEncoder::State {
   double key_mean = 0.0;  // mean light at the last key [W/m^2]
   float thrift = 1.0f;
   LightErrors errors;
-  std::optional<TextureEncoding> textures;  // empty: our own codec
+  std::optional<TextureEncoding> textures;  // empty: Lambent's own codec
   bool refreshes = false;                   // the next texture is a key
 
-  // What was coded for who comes late, as long as it is so
+  // Coded geometry for clients that join late, as long as it is valid
   mutable std::mutex coded_mutex;
   mutable GeometrySections sections;
   mutable CorrectionPieces pieces;
@@ -89,7 +88,7 @@ struct LightEncoder::State {
     light = LightState{};
   }
 
-  /// All of the geometry, for clients that have none. What has not changed since is not coded
+  /// All of the geometry, for clients that have none. Sections that have not changed are not coded
   /// again.
   std::vector<LightMessage> whole_geometry(std::uint64_t update) const {
     const std::scoped_lock lock(coded_mutex);
@@ -102,7 +101,7 @@ struct LightEncoder::State {
     next_corrections = due_after(field.updates());
   }
 
-  /// Tells of geometry that changed, if any.
+  /// A message with the changes of the geometry, if any.
   std::optional<LightMessage> follow_geometry(const IrradianceField& field, std::uint64_t update);
 
   LightMessage encode_light(const FieldLight& field, std::uint64_t update);
@@ -121,7 +120,7 @@ std::optional<LightMessage> LightEncoder::State::follow_geometry(const Irradianc
   const bool moved =
       !std::equal(kind.volumes.begin(), kind.volumes.end(), geometry.volumes.begin(),
                   [](const Volume& a, const Volume& b) { return same_place(a.grid, b.grid); });
-  // Distances of probes that a scrolling volume recycled are those of other places
+  // Compare all probes after scrolling, since recycled ones have distances of other places
   const int turns = moved ? 1 : kDistanceTurns;
   const std::vector<int> probes =
       follow(field, settings.distance_threshold, static_cast<int>(update % turns), turns, geometry);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// From irradiance to the numbers that are coded, and back.
+// The transform from irradiance to the coded numbers, and back.
 //
-// What is coded is s = sqrt(E): an error of s is one of E that is 2 s as large, so that bright
-// light may be off by more than dark light, and dark light by a larger share than bright light.
-// Red, green and blue of s become a grey and two differences, and each of these, over the texels of
-// a tile, coefficients of the tile's basis.
+// The signal is s = sqrt(E): an error of s causes an error of E that is 2 s times as large, so that
+// absolute errors are larger in bright light, and relative errors are larger in dark light. Red,
+// green and blue of s are transformed to a grey and two differences, and each of these, over the
+// texels of a tile, to coefficients of the tile's basis.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@
 
 namespace lambent::stream {
 
-// The largest tile has so many texels.
+// Number of texels in the largest tile.
 inline constexpr std::size_t kMaxTileTexels = 16 * 16;
 
-/// Turns tiles of irradiance into coefficients, and back.
+/// Transforms tiles of irradiance to coefficients, and back.
 class LightSignal {
  public:
   /// A step of the coefficients is `unit` [(W/m^2)^(1/2)].
   LightSignal(const TileBasis& basis, float unit) : basis_(basis), unit_(unit) {}
 
-  /// The coefficients of a tile's light, in units, not rounded: basis.size() of each channel.
+  /// The coefficients of a tile's light, in units, not rounded: basis.size() per channel.
   void coefficients_of(std::span<const glm::vec4> tile, std::span<float> coefficients) const;
 
   /// The light [W/m^2] of coefficients.

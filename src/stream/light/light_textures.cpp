@@ -72,7 +72,7 @@ void LightTextures::follow_geometry() {
   moments_.resize(geometry.tile());
   grids_.clear();
   for (const Volume& volume : geometry.volumes) grids_.push_back(volume.grid);
-  // Where volumes scroll, probes move that have not changed
+  // When volumes scroll, probes move that the decoder does not list as changed
   places_.resize((static_cast<std::size_t>(probes) + kWidth - 1) / kWidth * kWidth);
   for (int probe = 0; probe < probes; ++probe) {
     places_[probe] = glm::vec4(decoder_.position_ws(probe), 0.0f);

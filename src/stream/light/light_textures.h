@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a client's shader looks streamed light up in: the textures of a WebGL or any other client
-// that renders with a graphics API of its own.
+// Textures in which shaders look up streamed light, for WebGL or any other client that renders with
+// its own graphics API.
 #pragma once
 
 #include <cstdint>
@@ -12,29 +12,30 @@
 
 namespace lambent::stream {
 
-/// Follows a decoder. Tiles are kept with their gutters, row after row of as many as fit into
-/// kWidth; probe p is tile number p.
+/// Converts the state of a decoder to textures. Tiles have gutters, and are in rows of as many as
+/// fit into kWidth; probe p is tile number p.
 class LightTextures {
  public:
-  /// Texels along a row, which every WebGL 2 and Vulkan device has.
+  /// Texels along a row, which every WebGL 2 and Vulkan device supports.
   static constexpr int kWidth = 2048;
 
   /// Refers to the decoder, which must outlive it.
   explicit LightTextures(const LightDecoder& decoder) : decoder_(decoder) {}
 
-  /// Brings the textures up to date. To be called after each message that the decoder took.
+  /// Updates the textures. To be called after each message that the decoder accepted.
   void follow();
 
-  /// RGB9E5, a word a texel [W/m^2].
+  /// RGB9E5, one word per texel [W/m^2].
   const std::vector<std::uint32_t>& irradiance() const { return irradiance_; }
-  /// Two halves a texel: mean distance [distance_unit of the probe's grid], and mean squared one.
+  /// Two half floats per texel: mean distance [distance_unit of the probe's grid], and mean squared
+  /// one.
   const std::vector<std::uint32_t>& distances() const { return distances_; }
-  /// Where probes are [m], a texel each; the fourth number is 0.
+  /// Positions of probes [m], one texel each; the fourth number is 0.
   const std::vector<glm::vec4>& places() const { return places_; }
   /// The volumes, in the order in which lookups use them.
   const std::vector<ProbeGrid>& grids() const { return grids_; }
 
-  /// Counts up with every change of distances, places and grids.
+  /// A counter of changes of distances, places and grids.
   std::uint32_t geometry_changes() const { return geometry_changes_; }
   /// CRC-32 of the decoder's coefficients and of all textures.
   std::uint32_t checksum() const;

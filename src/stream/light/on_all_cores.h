@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is coded in parts that need nothing of each other.
+// Parallel coding of independent parts.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace lambent::stream {
 
-/// Calls body(i) for each of so many; on all cores, where there are threads.
+/// Calls body(i) for each i below `count`; on all cores, where threads are available.
 template <class Body>
 void on_all_cores(std::size_t count, const Body& body) {
 #ifdef __EMSCRIPTEN__

@@ -14,7 +14,7 @@
 
 namespace lambent::stream {
 
-/// Contexts of probes' records. The numbers of texels are told by how much the texels beside them
+/// Models of probes' records. The context of a texel's number is how much the neighbouring texels
 /// differ from one another.
 struct ProbeModels {
   static constexpr int kActivities = 5, kStateBits = 3;
@@ -25,7 +25,7 @@ struct ProbeModels {
   std::array<std::array<Number, kActivities>, 2> numbers;  // of means, and of deviations
 };
 
-/// What is expected of a number from those to its left, above, and above left (the median edge
+/// The prediction of a number from those to its left, above, and above left (the median edge
 /// detector of LOCO-I: Weinberger et al., "The LOCO-I Lossless Image Compression Algorithm", IEEE
 /// Transactions on Image Processing 9(8), 2000).
 inline int expected_number(int left, int above, int corner) {
@@ -38,7 +38,7 @@ inline int activity_of(int left, int above, int corner) {
   return sum == 0 ? 0 : sum <= 2 ? 1 : sum <= 5 ? 2 : sum <= 12 ? 3 : 4;
 }
 
-/// Codes one number of each texel of a tile, as what it differs by from that of `before`. Returns
+/// Codes one number of each texel of a tile, as the difference from that of `before`. Returns
 /// whether all are within 0 to `most`.
 template <class Coder>
 bool code_tile(Coder& coder, std::array<ProbeModels::Number, ProbeModels::kActivities>& models,
@@ -66,8 +66,8 @@ bool code_tile(Coder& coder, std::array<ProbeModels::Number, ProbeModels::kActiv
   return true;
 }
 
-/// Codes a probe's record: its state, offset and distances, these as what they differ by from
-/// `before`, which may be blank. Returns false on what no encoder wrote.
+/// Codes a probe's record: its state, offset and distances, the latter as differences from
+/// `before`, which may be blank. Returns false on data that no encoder wrote.
 template <class Coder>
 bool code_probe(Coder& coder, ProbeModels& models, int probe, std::span<const CodedMoments> before,
                 FieldGeometry& geometry) {

@@ -13,27 +13,27 @@
 namespace lambent::stream {
 namespace {
 
-constexpr std::size_t kChunk = 128;  // probes that one core takes at a time
+constexpr std::size_t kChunk = 128;  // probes per task
 
-// The share of the mean light that LightErrors::dark adds.
+// The share of the mean light in the denominator of LightErrors::dark.
 constexpr double kDarkShare = 0.1;
 
-// Light below this counts as this where errors are told as shares of it [W/m^2].
+// Least light to which errors are relative [W/m^2].
 constexpr double kLeastLight = 1e-20;
 
 // The brightest light that is coded [W/m^2].
 constexpr float kMaxLight = 1e14f;
 
-// A unit is so many times the target error times the root of the mean light. Of the atrium's day
-// both errors are then within the target with a thrift of 1.
+// Factor of a unit over the target error times the root of the mean light. With it, both errors of
+// the atrium's day are within the target with a thrift of 1.
 constexpr float kUnits = 1.4f;
 
-// Changes at least so large become levels [units]; with a thrift of 1 by so much more.
+// Least change that becomes a level [units], and its increase with a thrift of 1.
 constexpr float kDeadZone = 0.5f, kThriftyDeadZone = 0.15f;
-// The same of a level of 1 that is alone in its degree.
+// The same for a level of 1 that is the only one of its degree.
 constexpr float kLoneDeadZone = 0.5f, kThriftyLoneDeadZone = 0.4f;
-// A probe with one or two levels of 1 is sent where that removes at least so much of its square
-// error, with a thrift of 1 [units^2].
+// Least reduction of the square error [units^2] for which a probe with one or two levels of 1 is
+// sent, with a thrift of 1.
 constexpr float kThriftyGain = 1.2f;
 constexpr int kFewLevels = 2;
 
@@ -45,7 +45,7 @@ class ProbeLevels {
       : texels_(layout.texels), changes_(changes), levels_(levels), thrift_(thrift) {}
 
   void choose() {
-    // At the dead zone's edge a level of 1 begins
+    // Levels of 1 begin at the edge of the dead zone
     const float shift = 1.0f - (kDeadZone + kThriftyDeadZone * thrift_);
     for (std::size_t i = 0; i < levels_.size(); ++i) {
       const auto level = static_cast<std::int32_t>(std::max(std::abs(changes_[i]) + shift, 0.0f));
@@ -63,7 +63,7 @@ class ProbeLevels {
   }
 
  private:
-  /// Removes a degree's level where it is a small one alone. Returns the sum of magnitudes.
+  /// Removes the level of a degree if it is small and the only one. Returns the sum of magnitudes.
   std::int64_t without_lone_level(std::size_t first, std::size_t count) {
     std::int64_t sum = 0;
     std::size_t at = first;
@@ -79,7 +79,7 @@ class ProbeLevels {
     return 0;
   }
 
-  /// By how much the levels reduce the square error.
+  /// The reduction of the square error by the levels.
   float gain() const {
     float sum = 0.0f;
     for (std::size_t i = 0; i < levels_.size(); ++i) {

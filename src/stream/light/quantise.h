@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which levels to send, so that decoded light is as near to a field's as was asked for. Decoders
-// know nothing of this.
+// The choice of levels, so that decoded light is within the target error of a field's. Decoders do
+// not depend on it.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace lambent::stream {
 
 /// A field's light.
 struct FieldLight {
-  std::span<const glm::vec4> tiles;  ///< A tile for each probe, one after the other.
+  std::span<const glm::vec4> tiles;  ///< One tile per probe.
   double mean = 0.0;                 ///< Over lit probes, their texels and channels [W/m^2].
 };
 
@@ -30,20 +30,20 @@ FieldLight measure_light(const LightLayout& layout, std::span<const glm::vec4> t
 std::vector<float> coefficients_of(const LightLayout& layout, const TileBasis& basis,
                                    const FieldLight& light, float unit);
 
-/// How far the light of a state is from a field's.
+/// The errors of a state's light, relative to a field's.
 LightErrors errors_of(const LightLayout& layout, const TileBasis& basis, const FieldLight& light,
                       float unit, std::span<const std::int32_t> coefficients);
 
-/// The unit in which light of this mean, rounded to whole units, is well within the target.
+/// The unit with which light of this mean, rounded to whole units, is well within the target.
 float choose_unit(const FieldLight& light, float target_error);
 
-/// A state that holds coefficients as exactly as it can.
+/// The state with rounded coefficients.
 LightState rounded_state(const LightLayout& layout, std::span<const float> coefficients,
                          float unit);
 
-/// The levels that bring a state near to coefficients. Of what is wrong by less than a unit or so,
-/// what would cost more than it is worth is left out: with a thrift of 0 nothing, with 1 as much as
-/// pays where errors are half a unit, with 2 twice as much.
+/// The levels that bring a state close to coefficients. Among errors below about a unit, those are
+/// ignored whose correction would cost more bits than it is worth: with a thrift of 0 none, with 1
+/// as many as is best where errors are half a unit, with 2 twice as many.
 std::vector<std::int32_t> choose_levels(const LightLayout& layout, const LightState& state,
                                         std::span<const float> coefficients, float thrift);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field of a client: a field of the stream's volumes, whose tiles hold what was decoded.
+// The field of a client: it has the stream's volumes, and its tiles have the decoded light.
 #include <array>
 #include <optional>
 #include <utility>
@@ -13,11 +13,12 @@
 namespace lambent::stream {
 namespace {
 
-// Stored moments are replaced, not averaged; half floats are dithered, always alike.
+// Stored moments are replaced, not averaged; half floats are dithered with the same seed every
+// time.
 constexpr float kReplace = 1.0f;
 constexpr uint kDitherSeed = 0;
 
-/// Settings of a field whose volumes are as these. Light is stored as it was decoded.
+/// Settings of a field with these volumes. Light is stored as float32, as it was decoded.
 FieldSettings settings_for(const FieldGeometry& geometry) {
   FieldSettings settings;
   settings.irradiance_texels = geometry.irradiance_texels;
@@ -35,7 +36,7 @@ struct StreamedField::State {
   std::uint64_t geometry = 0;
   std::optional<IrradianceField> field;
 
-  /// Makes the field, or makes it anew, where the stream's volumes are others than before.
+  /// Creates the field, or replaces it if the stream's volumes have changed.
   void make_field(const FieldGeometry& of_stream);
   void copy_places(const FieldGeometry& of_stream);
   void copy_distances(std::span<const int> probes);
@@ -46,7 +47,7 @@ struct StreamedField::State {
 void StreamedField::State::make_field(const FieldGeometry& of_stream) {
   IrradianceField made = FieldAccess::make(
       std::make_unique<FieldAccess::State>(settings_for(of_stream), of_stream.volumes));
-  // The field stays where it is, for those who refer to it
+  // Keep the address of the field, for objects that refer to it
   if (field) {
     *field = std::move(made);
   } else {
@@ -113,7 +114,7 @@ Expected<void> StreamedField::receive(std::span<const std::byte> message) {
   const std::span<const int> changed = s.decoder.changed();
   const std::uint64_t version = decoded.current->version;
   if (s.geometry != version) {
-    // A change names the probes that it changed; of all else, all are new
+    // Changes list the probes that they change; after any other message, all are new
     const bool anew = !s.field || !decoded.current->geometry.same_kind(s.kind);
     if (anew) s.make_field(decoded.current->geometry);
     s.copy_places(decoded.current->geometry);

@@ -11,8 +11,8 @@
 namespace lambent::stream {
 namespace {
 
-// A polynomial counts as new where so much of it is left, once what others can express is taken
-// away: far above rounding, far below what is left of any that is new.
+// A polynomial counts as independent if at least this share of it remains after its projection onto
+// the basis is subtracted: far above rounding, and far below the remainder of any independent one.
 constexpr double kNew = 1e-4;
 
 using Values = std::vector<double>;  // at all texels
@@ -33,11 +33,11 @@ Values monomial(int edge, int i, int j, int k) {
   return values;
 }
 
-/// Takes away from `values` what the basis can express, and normalises the rest. Returns whether
-/// there was any to speak of.
+/// Subtracts the projection onto the basis from `values`, and normalises the remainder. Returns
+/// whether there was one.
 bool orthonormalise(const std::vector<Values>& basis, Values& values) {
   const double before = std::sqrt(dot(values, values));
-  // Twice, since what rounding leaves the first time is not small beside a small rest
+  // Twice, since the first pass's rounding error is not small compared to a small remainder
   for (int pass = 0; pass < 2; ++pass) {
     for (const Values& other : basis) {
       const double share = dot(values, other);
@@ -59,14 +59,14 @@ TileBasis::TileBasis(int edge) : size_(static_cast<std::size_t>(edge) * edge) {
     Values values = monomial(edge, i, j, k);
     if (orthonormalise(basis, values)) basis.push_back(std::move(values));
   };
-  // On the sphere z^2 = 1 - x^2 - y^2, so that higher powers of z bring nothing new
+  // On the sphere z^2 = 1 - x^2 - y^2, so that higher powers of z are dependent
   const int degrees = 4 * edge;
   for (int degree = 0; degree < degrees; ++degree) {
     for (int k = 0; k <= std::min(degree, 1); ++k) {
       for (int i = degree - k; i >= 0; --i) add(i, degree - k - i, k);
     }
   }
-  // What polynomials of so low degrees cannot tell apart, single texels do
+  // Complete the basis with single texels where polynomials of these degrees do not suffice
   for (std::size_t texel = 0; texel < size_ && basis.size() < size_; ++texel) {
     Values values(size_, 0.0);
     values[texel] = 1.0;

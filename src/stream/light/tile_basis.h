@@ -2,10 +2,11 @@
 // An orthonormal basis for the texels of a probe's tile.
 //
 // Irradiance is almost a spherical harmonic expansion up to degree 2 (Ramamoorthi and Hanrahan,
-// JOSA A 18(10), 2001), so that in harmonics most of a tile is in few numbers. At the N^2 texels of
-// an octahedral tile, polynomials of the direction are made orthonormal by Gram and Schmidt's
-// process in the order of their degree: 1, 3, 5, ... of degree 0, 1, 2, ..., N^2 in all. Where some
-// of a degree vanish at all texels, as z does in a tile of 2 x 2, ones of higher degree take over.
+// JOSA A 18(10), 2001), so that few coefficients in harmonics represent most of a tile. At the N^2
+// texels of an octahedral tile, polynomials of the direction are made orthonormal by Gram and
+// Schmidt's process in the order of their degree: 1, 3, 5, ... of degree 0, 1, 2, ..., N^2 in all.
+// Where some of a degree vanish at all texels, such as z in a tile of 2 x 2, polynomials of higher
+// degree replace them.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,7 @@
 namespace lambent::stream {
 
 /// A basis of tiles of `edge` x `edge` texels. The last bits of its numbers depend on the compiler,
-/// so that nothing that encoder and decoder must agree on may be computed from it.
+/// so it must not be used for data on which encoder and decoder must agree.
 class TileBasis {
  public:
   explicit TileBasis(int edge);

@@ -11,28 +11,29 @@
 namespace lambent::stream {
 namespace {
 
-// Of the size that was asked for, along each edge.
+// Scales of the requested size, along each edge.
 constexpr std::array kScales = {1.0, 0.75, 0.5, 0.375, 0.25};
 
-// Bits a pixel of each picture: below the first, blocks show; above the last, nobody sees more.
+// Bits per pixel: the least, below which blocks are visible; the initial value; the most, above
+// which pictures look no better.
 constexpr double kFewestBits = 0.03, kFirstBits = 0.12, kMostBits = 0.4;
-// A larger size must have so many bits a pixel at once.
+// Least bits per pixel that a larger size must have immediately.
 constexpr double kBitsToGrow = 0.08;
 
-// A larger size must be expected to take no more than this share of what it may.
+// A larger size must be expected to take at most this share of PaceLimits::picture_ms.
 constexpr double kFastEnough = 0.5;
-// Pictures that must be so in a row before they grow: some seconds.
+// Number of successive pictures that must permit a larger size: some seconds.
 constexpr int kSteadyPictures = 40;
 
-// Pictures whose bytes are on their way for so much longer than those of the fastest were wait in
-// line [ms]. Systems tell of what they have received 40 ms late where nothing is sent back at once.
+// Pictures whose transit takes this much longer than the fastest one's wait in queues [ms].
+// Receivers may delay acknowledgements by 40 ms.
 constexpr double kInLine = 60.0;
-// Down at once, up slowly: as congestion control of the internet does.
+// Multiplicative decrease and slow increase, as in congestion control.
 constexpr double kLess = 0.8, kMore = 1.02;
-// The fastest one is forgotten, so that a path that became longer counts as it is.
+// Growth of the fastest transit per picture, so that a path that became longer is recognised.
 constexpr double kForgetLeast = 1.002;
 
-constexpr double kNewShare = 0.2;  // of the latest time in a smoothed one
+constexpr double kNewShare = 0.2;  // weight of the latest time in a smoothed one
 
 double smoothed(double before, double now) {
   return before > 0.0 ? before + kNewShare * (now - before) : now;
@@ -46,7 +47,7 @@ Pace::Pace(const PaceLimits& limits, glm::uvec2 size, float rate) : limits_(limi
 }
 
 void Pace::ask(glm::uvec2 size, float rate) {
-  // Within the limits, with the proportions that were asked for
+  // Within the limits, with the requested aspect
   const double scale = std::min({1.0, static_cast<double>(limits_.size.x) / size.x,
                                  static_cast<double>(limits_.size.y) / size.y});
   asked_size_ = glm::uvec2(glm::dvec2(size) * scale + 0.5);
@@ -75,7 +76,7 @@ float Pace::likely_rate() const {
 }
 
 std::uint32_t Pace::bitrate() const {
-  constexpr double kLeastBitrate = 64'000.0;  // [bit/s]; the codec accepts no less of any size
+  constexpr double kLeastBitrate = 64'000.0;  // [bit/s]; the codec accepts no less for any size
   const double wanted = bits_a_pixel_ * pixels_at(step_) * likely_rate();
   const double most = std::max(kLeastBitrate, static_cast<double>(limits_.bitrate));
   return static_cast<std::uint32_t>(std::clamp(wanted, kLeastBitrate, most));

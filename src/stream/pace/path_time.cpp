@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stream/pace/path_time.h"
 
-// In place of <netinet/tcp.h>, whose tcp_info ends earlier.
+// Not <netinet/tcp.h>, whose tcp_info lacks the later members.
 #include <linux/tcp.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -18,7 +18,7 @@ std::optional<PathTime> path_time_of(int socket) {
   constexpr std::size_t kEnd =
       offsetof(tcp_info, tcpi_sndbuf_limited) + sizeof(info.tcpi_sndbuf_limited);
   if (size < kEnd) return std::nullopt;
-  // The first counts the others, too
+  // tcpi_busy_time includes the other two
   const std::uint64_t limited = info.tcpi_rwnd_limited + info.tcpi_sndbuf_limited;
   return PathTime(info.tcpi_busy_time - std::min<std::uint64_t>(limited, info.tcpi_busy_time));
 }

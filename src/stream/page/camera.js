@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // A camera that is turned and moved by mouse, touch and keys over an element.
 
-const TURN = 0.005; // a pixel that is dragged [rad]
+const TURN = 0.005; // per dragged pixel [rad]
 const KEY_TURN = 1.2; // [rad/s]
 const KEYS_TO_CROSS = 4; // seconds to cross the scene
-const WHEEL_STEP = 0.02; // of the scene's size
+const WHEEL_STEP = 0.02; // as a share of the scene's size
 const STEEPEST = 1.5; // [rad]
 
 export class CameraControls {
   position = [0, 0, 0];
   fov = 0.8;
-  size = 0; // of the scene [m]; 0: nothing moves yet
-  onmove = () => {}; // called where mouse or touch have moved it
+  size = 0; // size of the scene [m]; 0: not known yet, so nothing moves
+  onmove = () => {}; // called when mouse or touch have moved the camera
   #yaw = 0;
   #pitch = 0;
   #pressed = new Set();
@@ -40,12 +40,12 @@ export class CameraControls {
     }, { passive: false });
   }
 
-  /// Begins where the server says that clients do, in a scene of these bounds.
+  /// Starts at the server's initial camera, in a scene with these bounds.
   take({ camera, min, max }) {
     const [x, y, z, w] = camera.rotation;
     this.position = camera.position;
     this.fov = camera.fov;
-    // Where the camera's -Z points
+    // The direction of the camera's -Z
     const forward = [-2 * (x * z + w * y), -2 * (y * z - w * x), -(1 - 2 * (x * x + y * y))];
     this.#yaw = Math.atan2(-forward[0], -forward[2]);
     this.#pitch = Math.asin(Math.max(-1, Math.min(1, forward[1])));
@@ -59,7 +59,7 @@ export class CameraControls {
     return [cy * sp, sy * cp, -sy * sp, cy * cp];
   }
 
-  /// Goes on for so long, as pressed keys say.
+  /// Moves by pressed keys for a time.
   step(seconds) {
     const key = (name) => (this.#pressed.has(name) ? 1 : 0);
     const step = seconds / KEYS_TO_CROSS;
@@ -83,7 +83,7 @@ export class CameraControls {
     this.#moved = true;
   }
 
-  /// Along the view, to its right, and up, in shares of the scene's size.
+  /// Moves along the view, to its right, and up, in shares of the scene's size.
   #move(ahead, right, up) {
     if (!this.size) return;
     const [sin, cos] = [Math.sin(this.#yaw), Math.cos(this.#yaw)];

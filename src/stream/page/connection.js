@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A connection to the server that this page came from, which is made again where it is lost.
+// A connection to the page's server, which is re-established when it is lost.
 import { CODE, read, TYPE } from './protocol.js';
 
-const FIRST_WAIT_MS = 250, LONGEST_WAIT_MS = 800; // until it is tried again to connect
+const FIRST_WAIT_MS = 250, LONGEST_WAIT_MS = 800; // wait before the next attempt to connect
 
 /// Shows its state in the page's elements `status`, `token-form` and `token`.
 export class Connection {
@@ -13,11 +13,11 @@ export class Connection {
   #take;
   #lost;
 
-  /// `token`, if a page was opened with one, is behind its #.
+  /// The token in the fragment of the page's address, if any.
   token = new URLSearchParams(location.hash.slice(1)).get('token') ?? '';
 
-  /// `hello` makes the first message, `take` is given every message of the server's, `lost` is called where the
-  /// connection ends.
+  /// `hello` creates the first message, `take` is called with each message of the server, `lost` is
+  /// called when the connection ends.
   constructor({ hello, take, lost = () => {} }) {
     [this.#hello, this.#take, this.#lost] = [hello, take, lost];
     document.getElementById('token-form').addEventListener('submit', (event) => {
@@ -49,10 +49,10 @@ export class Connection {
     if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(bytes);
   }
 
-  /// Begins again with another connection.
+  /// Starts again with a new connection.
   again() { this.#socket?.close(); }
 
-  /// Ends it for good, and tells why.
+  /// Ends the connection permanently, and shows the reason.
   end(why) {
     this.#ended = true;
     this.#socket?.close();
@@ -76,7 +76,7 @@ export class Connection {
   }
 }
 
-/// Tells people how things are.
+/// Shows a status to the user.
 export function tell(text, isError = false) {
   const status = document.getElementById('status');
   status.textContent = text;

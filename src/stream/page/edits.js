@@ -5,7 +5,7 @@ import * as protocol from './protocol.js';
 const element = (id) => document.getElementById(id);
 const AXES = ['x', 'y', 'z'];
 
-/// `send` takes a message, `nextInput` counts inputs.
+/// `send` sends a message, `nextInput` returns the next input's number.
 export class Edits {
   #welcome;
   #send;
@@ -21,7 +21,7 @@ export class Edits {
     element('edits').addEventListener('submit', (event) => event.preventDefault());
   }
 
-  /// Offers what the scene has, to who may change it.
+  /// Shows the controls for the scene's lights, if the client may change them.
   offer(welcome) {
     const first = !this.#welcome;
     this.#welcome = welcome;
@@ -54,7 +54,8 @@ export class Edits {
     this.#send(protocol.timeOfDay(this.#nextInput(), hours));
   }
 
-  /// Only what was touched is edited: a lamp need not stand exactly where a slider can be.
+  /// Edits only the numbers whose sliders were moved: other positions may be between steps of the
+  /// sliders.
   #sendLight(edits) {
     const index = Number(element('light').value);
     const chosen = this.#welcome.lights[index];

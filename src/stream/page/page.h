@@ -8,13 +8,13 @@
 namespace lambent::stream {
 
 struct PageFile {
-  std::string_view path;  ///< As it is asked for, such as "/page.js".
-  std::string_view type;  ///< As the header Content-Type has it.
+  std::string_view path;  ///< Path of requests, such as "/page.js".
+  std::string_view type;  ///< Value of the header Content-Type.
   std::string_view bytes;
 };
 
-/// All files of the pages; the first one is "/". "/light" is there where LAMBENT_STREAM_WASM was
-/// on.
+/// All files of the pages; the first one is "/". "/light" exists in builds with
+/// LAMBENT_STREAM_WASM.
 std::span<const PageFile> page_files();
 
 }  // namespace lambent::stream

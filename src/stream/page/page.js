@@ -4,8 +4,8 @@ import { Connection, tell } from './connection.js';
 import { Edits } from './edits.js';
 import * as protocol from './protocol.js';
 
-const RATE = 30; // pictures a second, at most
-const SEND_MS = 15; // from one camera to the next, at least; servers take 200 messages a second
+const RATE = 30; // maximum pictures per second
+const SEND_MS = 15; // least time between two cameras; servers accept 200 messages per second
 
 const element = (id) => document.getElementById(id);
 const canvas = element('picture');
@@ -20,7 +20,7 @@ const connection = new Connection({
 });
 const edits = new Edits({ send: (bytes) => connection.send(bytes), nextInput: () => ++input });
 
-/// Why this browser shows no pictures; empty: it does.
+/// The reason why this browser cannot show pictures; empty if it can.
 function obstacle() {
   if (!window.isSecureContext) {
     return 'Browsers decode video streams on secure pages only: open this page over https, or as localhost on the '
@@ -48,7 +48,7 @@ function codecOf(bytes) {
   return 'avc1.42e034';
 }
 
-/// What has come and what was decoded: the same, once all has arrived.
+/// Publishes the numbers of received and decoded pictures, which are equal once all are decoded.
 function count() {
   Object.assign(canvas.dataset, { received, pictures });
 }
@@ -70,14 +70,14 @@ function show(frame) {
   count();
 }
 
-/// A stream that cannot be decoded begins again with a key picture.
+/// Restarts a stream that cannot be decoded, with a key picture.
 function restart(error) {
   tell(`Decoding failed: ${error.message}`, true);
   keyNeeded = true;
   connection.again();
 }
 
-/// A decoder for a stream that begins here. The one before goes on while it has pictures to show.
+/// Creates a decoder for a new stream. The previous one continues while it has pictures to show.
 function beginDecoding(wanted) {
   const before = decoder;
   if (before?.state === 'configured') before.flush().then(() => before.close(), () => {});
@@ -146,7 +146,7 @@ function everyFrame(now) {
   requestAnimationFrame(everyFrame);
 }
 
-// What is done by hand is not kept until the next frame of the screen
+// Send movements by mouse and touch at once, not with the next frame of the screen
 camera.onmove = () => {
   if (performance.now() - lastSent >= SEND_MS && camera.takeMoved()) sendCamera();
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages of docs/protocol.md: what a client writes and reads.
+// Writes and reads a client's messages of docs/protocol.md.
 
 export const VERSION = 1;
 const MAGIC = 0x54424d4c;
@@ -13,7 +13,7 @@ export const CODE = { badToken: 3, refusedInput: 5 };
 export const LIGHT_KIND = { geometry: 1, key: 2, delta: 3, regions: 6, corrections: 7 };
 export const EDITS = { position: 1, direction: 2, intensity: 4 };
 
-/// A message of a type, whose fields `write` puts in their order.
+/// A message of a type; `write` writes its fields in order.
 function message(type, write) {
   const bytes = [];
   const number = (size, set) => {
@@ -132,7 +132,7 @@ const readers = {
   [TYPE.error]: (from) => ({ code: from.word(), text: new TextDecoder().decode(from.bytes()) }),
 };
 
-/// A message of the server's: its type and its fields; types that are not known here have none.
+/// Reads a message of the server: its type and its fields. Unknown types have no fields.
 export function read(buffer) {
   const from = new Reader(buffer);
   const type = from.word();

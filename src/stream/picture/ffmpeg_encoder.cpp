@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// H.264 by FFmpeg's encoders: x264, and what hardware has.
+// H.264 by FFmpeg's encoders: x264, and hardware encoders.
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavutil/hwcontext.h>
@@ -23,10 +23,11 @@ struct Option {
   const char* value;
 };
 
-/// An encoder, and how it gives each picture at once in a profile that all decoders have.
+/// An encoder, and the options with which it outputs each picture at once, in a profile that all
+/// decoders support.
 struct Known {
   const char* name;
-  bool on_device;  ///< Pictures are moved to a VAAPI device first.
+  bool on_device;  ///< Pictures are uploaded to a VAAPI device first.
   std::vector<Option> options;
 };
 
@@ -86,7 +87,7 @@ class FfmpegCodec : public PictureCodec {
   float first_rate_ = 1.0f;
 };
 
-/// A VAAPI device, and room for pictures on it.
+/// Opens a VAAPI device, and allocates pictures on it.
 Expected<void> FfmpegCodec::open_device() {
   AVBufferRef* device = nullptr;
   if (av_hwdevice_ctx_create(&device, AV_HWDEVICE_TYPE_VAAPI, nullptr, nullptr, 0) < 0) {
@@ -120,21 +121,21 @@ Expected<void> FfmpegCodec::open(const EncoderSettings& settings) {
   packet_.reset(av_packet_alloc());
   if (!context_ || !frame_ || !packet_) return failed(known_.name, "memory runs out");
   AVCodecContext& to = *context_;
-  constexpr int kClock = 1000;  // ticks of a picture's share of a second
+  constexpr int kClock = 1000;  // ticks per picture interval
   first_rate_ = settings.rate;
   to.width = settings.width;
   to.height = settings.height;
   to.pix_fmt = AV_PIX_FMT_YUV420P;
   to.framerate = {static_cast<int>(std::lround(settings.rate * kClock)), kClock};
   to.time_base = {to.framerate.den, to.framerate.num};
-  to.gop_size = std::numeric_limits<int>::max();  // key pictures when they are asked for
+  to.gop_size = std::numeric_limits<int>::max();  // key pictures only on request
   to.max_b_frames = 0;
   to.refs = 1;
-  to.thread_count = 1;  // the renderer has the other cores
-  // How players get their colours back
+  to.thread_count = 1;  // leave the other cores to the renderer
+  // Colour description for players
   to.color_range = AVCOL_RANGE_MPEG;
   to.color_primaries = AVCOL_PRI_BT709;
-  to.color_trc = AVCOL_TRC_IEC61966_2_1;  // sRGB, as the tone map has it
+  to.color_trc = AVCOL_TRC_IEC61966_2_1;  // sRGB, the output of the tone map
   to.colorspace = AVCOL_SPC_BT709;
   aim(settings.rate, settings.bitrate);
   if (known_.on_device) {
@@ -152,7 +153,7 @@ Expected<void> FfmpegCodec::open(const EncoderSettings& settings) {
   return {};
 }
 
-/// The picture on the device.
+/// Uploads the picture to the device.
 Expected<AVFrame*> FfmpegCodec::upload() {
   av_frame_unref(on_device_.get());
   if (av_hwframe_get_buffer(frames_.get(), on_device_.get(), 0) < 0 ||
@@ -202,9 +203,10 @@ Expected<EncodedPicture> FfmpegCodec::encode(const YuvPicture& picture, bool key
 }
 
 void FfmpegCodec::aim(float rate, std::uint32_t bitrate) {
-  // The rate is fixed when an encoder is opened: what counts are bits a picture
+  // An encoder's rate is fixed when it is opened, so scale the bit rate for the right bits per
+  // picture
   const double a_second = static_cast<double>(bitrate) * static_cast<double>(first_rate_ / rate);
-  // No picture takes longer to send than so many of them
+  // Limits the size of a picture, to this many average ones
   constexpr double kBufferedPictures = 4.0;
   context_->bit_rate = std::llround(a_second);
   context_->rc_max_rate = context_->bit_rate;

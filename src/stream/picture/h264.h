@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// H.264 without delay: each picture that goes in comes out at once, and none is left out. Encoded
-// by OpenH264, or what LAMBENT_STREAM_FFMPEG has besides, and decoded by OpenH264. The codecs
-// themselves are seen by this folder alone.
+// H.264 without delay: each picture is output at once, and none is skipped. Encoded by OpenH264 or,
+// with LAMBENT_STREAM_FFMPEG, by FFmpeg's encoders; decoded by OpenH264. Only this folder includes
+// the codecs' headers.
 #pragma once
 
 #include <cstddef>
@@ -18,25 +18,25 @@
 
 namespace lambent::stream {
 
-// What OpenH264 encodes: level 5.2, in either orientation.
+// Limits of OpenH264: level 5.2, in either orientation.
 inline constexpr int kMaxEncodedLongSide = 3840, kMaxEncodedShortSide = 2160;  // [pixels]
 
 inline constexpr std::string_view kDefaultEncoder = "openh264";
 
 struct EncoderSettings {
   int width = 640, height = 360;      ///< Even, 16 to the limits above [pixels].
-  float rate = 30.0f;                 ///< Pictures a second that are expected, > 0.
-  std::uint32_t bitrate = 4'000'000;  ///< To aim at [bit/s], > 0.
+  float rate = 30.0f;                 ///< Expected pictures per second, > 0.
+  std::uint32_t bitrate = 4'000'000;  ///< Target [bit/s], > 0.
   /// One of picture_encoders().
   std::string encoder = std::string(kDefaultEncoder);
 };
 
-/// The names of encoders that this build knows; whether this machine has them check_encoder tells.
+/// The names of encoders in this build; check_encoder tests whether they work on this machine.
 std::vector<std::string> picture_encoders();
-/// Fails, saying why, where an encoder cannot encode here.
+/// Fails, with the reason, where an encoder does not work on this machine.
 Expected<void> check_encoder(const std::string& name);
 
-/// An access unit of the constrained baseline profile, Annex B, with parameter sets in front of key
+/// An access unit of the constrained baseline profile, Annex B, with parameter sets before key
 /// pictures.
 struct EncodedPicture {
   std::vector<std::byte> bytes;
@@ -45,10 +45,11 @@ struct EncodedPicture {
 
 class PictureCodec;
 
-/// Encodes pictures of one size, each but the key pictures by the one before. Not thread-safe.
+/// Encodes pictures of one size; all except key pictures are predicted from the one before. Not
+/// thread-safe.
 class PictureEncoder {
  public:
-  /// Fails where the encoder is not here, or refuses the settings.
+  /// Fails where the encoder is not available, or refuses the settings.
   static Expected<PictureEncoder> make(const EncoderSettings& settings);
   ~PictureEncoder();
   PictureEncoder(PictureEncoder&&) noexcept;
@@ -57,7 +58,7 @@ class PictureEncoder {
   /// Encodes a picture of the settings' size. `key`: as a key picture; the first one always is.
   Expected<EncodedPicture> encode(const YuvPicture& picture, bool key = false);
 
-  /// What to aim at from the next picture on.
+  /// Sets the targets from the next picture on.
   void aim(float rate, std::uint32_t bitrate);
 
   const EncoderSettings& settings() const { return settings_; }
@@ -68,8 +69,8 @@ class PictureEncoder {
   std::unique_ptr<PictureCodec> codec_;
 };
 
-/// Decodes what PictureEncoder made, from a key picture on. Sizes may change at key pictures. Not
-/// thread-safe.
+/// Decodes the output of a PictureEncoder, from a key picture on. Sizes may change at key pictures.
+/// Not thread-safe.
 class PictureDecoder {
  public:
   /// Fails where the codec cannot start.
@@ -78,8 +79,8 @@ class PictureDecoder {
   PictureDecoder(PictureDecoder&&) noexcept;
   PictureDecoder& operator=(PictureDecoder&&) noexcept;
 
-  /// The picture of an access unit. Fails on bytes that are broken or refer to pictures that are
-  /// missing; decoding goes on with the next key picture.
+  /// Decodes an access unit. Fails on bytes that are broken or refer to missing pictures; decoding
+  /// continues with the next key picture.
   Expected<YuvPicture> decode(std::span<const std::byte> bytes);
 
  private:

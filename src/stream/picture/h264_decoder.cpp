@@ -9,7 +9,7 @@
 namespace lambent::stream {
 namespace {
 
-/// The rows of a plane without what lies between them.
+/// The rows of a plane without the padding between them.
 std::vector<std::uint8_t> plane(const unsigned char* rows, int stride, int width, int height) {
   std::vector<std::uint8_t> to;
   to.reserve(static_cast<std::size_t>(width) * height);

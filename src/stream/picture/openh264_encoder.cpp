@@ -19,10 +19,10 @@ SEncParamExt parameters(ISVCEncoder& encoder, const EncoderSettings& settings) {
   to.iTargetBitrate = static_cast<int>(settings.bitrate);
   to.iMaxBitrate = UNSPECIFIED_BIT_RATE;
   to.iRCMode = RC_BITRATE_MODE;
-  to.bEnableFrameSkip = false;  // pictures in are pictures out
-  to.uiIntraPeriod = 0;         // key pictures when they are asked for
+  to.bEnableFrameSkip = false;  // skip no pictures
+  to.uiIntraPeriod = 0;         // key pictures only on request
   to.iNumRefFrame = 1;
-  to.iMultipleThreadIdc = 1;  // the renderer has the other cores
+  to.iMultipleThreadIdc = 1;  // leave the other cores to the renderer
   to.bEnableSceneChangeDetect = false;
   to.bEnableBackgroundDetection = false;
   to.eSpsPpsIdStrategy = CONSTANT_ID;
@@ -33,13 +33,13 @@ SEncParamExt parameters(ISVCEncoder& encoder, const EncoderSettings& settings) {
   layer.fFrameRate = settings.rate;
   layer.iSpatialBitrate = to.iTargetBitrate;
   layer.iMaxSpatialBitrate = UNSPECIFIED_BIT_RATE;
-  // How players get their colours back
+  // Colour description for players
   layer.bVideoSignalTypePresent = true;
   layer.uiVideoFormat = VF_UNDEF;
   layer.bFullRange = false;
   layer.bColorDescriptionPresent = true;
   layer.uiColorPrimaries = CP_BT709;
-  layer.uiTransferCharacteristics = TRC_IEC61966_2_1;  // sRGB, as the tone map has it
+  layer.uiTransferCharacteristics = TRC_IEC61966_2_1;  // sRGB, the output of the tone map
   layer.uiColorMatrix = CM_BT709;
   return to;
 }
@@ -73,7 +73,7 @@ Expected<EncodedPicture> OpenH264::encode(const YuvPicture& picture, bool key) {
   source.iPicHeight = picture.height;
   source.iStride[0] = picture.width;
   source.iStride[1] = source.iStride[2] = picture.width / 2;
-  // The codec's interface is older than const
+  // The codec's interface is not const-correct
   source.pData[0] = const_cast<unsigned char*>(picture.y.data());
   source.pData[1] = const_cast<unsigned char*>(picture.cb.data());
   source.pData[2] = const_cast<unsigned char*>(picture.cr.data());

@@ -13,22 +13,22 @@
 namespace lambent::stream {
 namespace {
 
-// ITU-R BT.709-6, item 3.3: differences from brightness are divided by these, which brings them to
-// -0.5 to 0.5
+// ITU-R BT.709-6, item 3.3: differences from luma are divided by these, which scales them to -0.5
+// to 0.5
 const float kBlueRange = 2.0f * (1.0f - kBlueLuminance);
 const float kRedRange = 2.0f * (1.0f - kRedLuminance);
 // Item 4.6: limited range in 8 bits
 constexpr float kBlack = 16.0f, kBrightnessSteps = 219.0f;
 constexpr float kNoColor = 128.0f, kColorSteps = 224.0f;
 
-// Rows of 2x2 blocks that a task takes.
+// Rows of 2x2 blocks per task.
 constexpr std::size_t kBlockRowsOfATask = 8;
 
 std::uint8_t rounded(float value) {
   return static_cast<std::uint8_t>(std::clamp(value + 0.5f, 0.0f, 255.0f));
 }
 
-/// Item 3.2: of values as displays take them, by the weights of linear luminance.
+/// Item 3.2: luma of display-encoded values, with the weights of linear luminance.
 float brightness(const float* rgb) {
   return kRedLuminance * rgb[0] + kGreenLuminance * rgb[1] + kBlueLuminance * rgb[2];
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layout of each message, written once: `fields` names a message's numbers in their order, with
-// the range of each, to whoever reads or writes them.
+// The layout of each message, defined once for reading and writing: `fields` visits a message's
+// numbers in order, with the range of each.
 #pragma once
 
 #include <numbers>
@@ -9,15 +9,15 @@
 
 namespace lambent::stream {
 
-/// Says "LMBT" in a file of little-endian words: what else finds its way to the port ends here.
+/// "LMBT" as a little-endian word. It identifies the protocol, so that other data is refused.
 inline constexpr std::uint32_t kMagic = 0x54424d4c;
 
-// As Scene has them; see the comments of Light and Camera.
+// The ranges of Scene; see the comments of Light and Camera.
 inline constexpr float kMaxPlace = 1e9f;       // [m]
 inline constexpr float kMaxIntensity = 1e12f;  // [W/sr]
 inline constexpr float kMaxScale = 1e10f;
 inline constexpr float kMinFov = 0.001f, kMaxFov = std::numbers::pi_v<float> - 0.001f;  // [rad]
-// Milliseconds that nothing here takes: an hour.
+// Largest time in messages [ms]: an hour.
 inline constexpr float kMaxMs = 3.6e6f;
 inline constexpr float kMaxTime = 1e9f;  // of an animation [s]: 30 years
 inline constexpr std::uint32_t kAnyWord = 0xffffffffu;

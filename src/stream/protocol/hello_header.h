@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A client's hello in the request that opens its WebSocket, which saves a round trip.
+// A client's Hello in the request that opens its WebSocket, which saves a round trip.
 #pragma once
 
 #include <string>
@@ -10,13 +10,14 @@
 
 namespace lambent::stream {
 
-/// The field of the request with the hello, and of the answer, where the server has taken it.
+/// The header field of the request with the Hello, and its value in the answer if the server has
+/// accepted it.
 inline constexpr const char* kHelloField = "Lambent-Hello";
 inline constexpr const char* kHelloTaken = "taken";
 
 /// The message in hexadecimal digits.
 std::string hello_header(const Hello& hello);
-/// A client's message. Fails on what is none.
+/// Parses a client's message. Fails on invalid digits and messages.
 Expected<Message> read_hello_header(std::string_view digits);
 
 }  // namespace lambent::stream

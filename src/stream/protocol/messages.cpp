@@ -13,10 +13,10 @@
 namespace lambent::stream {
 namespace {
 
-// How far from 1 the length of a unit vector may be: that of one sent in single precision.
+// Tolerance of a unit vector's length, for vectors sent in single precision.
 constexpr float kUnitTolerance = 1e-3f;
 
-/// The number of a message on the wire, and who sends it.
+/// The number of a message's type on the wire, and its sender.
 template <class T>
 struct Type;
 template <>
@@ -90,7 +90,7 @@ struct Type<InputsApplied> {
 
 constexpr std::uint8_t kFirstOfBoth = 32, kFirstOfServer = 64;
 
-/// Lengths of what has no fixed size are words before it.
+/// Writes fields. Those of variable size are preceded by a word with their length.
 class FieldWriter {
  public:
   explicit FieldWriter(ByteWriter& to) : to_(to) {}
@@ -129,7 +129,7 @@ class FieldWriter {
   ByteWriter& to_;
 };
 
-/// After the first field that is wrong, nothing is read.
+/// Reads fields. After the first invalid field, nothing more is read.
 class FieldReader {
  public:
   explicit FieldReader(std::span<const std::byte> from) : bytes_(from), from_(from) {}
@@ -215,7 +215,7 @@ Expected<Message> parse_as(std::span<const std::byte> body) {
   return Message(std::move(message));
 }
 
-/// The parser of the type with that number; null where there is none.
+/// The parser of the type with this number; null where there is none.
 template <std::size_t... kIndices>
 auto parser_of(std::uint8_t number, std::index_sequence<kIndices...>) {
   Expected<Message> (*found)(std::span<const std::byte>) = nullptr;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a client takes messages of regions.
+// The client's decoding of region messages.
 #include <utility>
 
 #include "stream/light/decoder_state.h"
 
 namespace lambent::stream {
 
-/// Keys of all regions: light that needs none before.
+/// Receives keys of all regions, which need no earlier light.
 Expected<void> LightDecoder::State::receive_whole_regions(const MessageHeader& header,
                                                           const RegionBody& body) {
   const ReceivedGeometry& of = is_of_next(header) ? *next : *current;

@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::uint32_t kFar = 1, kKey = 2, kAgeBits = 2;
 
-// Numbers are mostly small: seven bits a byte, the lowest first, and the eighth where more follow.
+// Variable-length numbers: seven bits per byte, the lowest first; the eighth bit means that more
+// follow.
 constexpr std::uint32_t kSeven = 7, kMore = 1u << kSeven;
 
 void write_number(std::uint32_t number, ByteWriter& out) {
@@ -22,7 +23,7 @@ void write_number(std::uint32_t number, ByteWriter& out) {
   out.raw(std::array{static_cast<std::byte>(number)});
 }
 
-/// Takes a number off the front; false where there is none of 28 bits or fewer.
+/// Reads a number from the front; returns false unless there is one of at most 28 bits.
 bool read_number(std::span<const std::byte>& from, std::uint32_t& number) {
   number = 0;
   for (std::uint32_t shift = 0; shift < 4 * kSeven && !from.empty(); shift += kSeven) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The body of a message of regions.
+// Coding of the body of a region message.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace lambent::stream {
 
-/// Which stream of a region.
+/// The two streams of each region.
 enum class RegionRate : std::uint8_t { near = 0, far = 1 };
 
 /// One step of a region's stream, coded once for all clients that follow it.
@@ -20,19 +20,21 @@ struct RegionStep {
   std::uint32_t region = 0;
   RegionRate rate = RegionRate::near;
   bool is_key = false;
-  /// Before the message's update: of a delta the update that it leads from; of a key its own.
+  /// The message's update less, for a delta, the update from which it leads; for a key, the key's
+  /// own update.
   std::uint32_t age = 0;
   std::span<const std::byte> coded;
 };
 
-/// `whole`: keys of all regions, which need no light before.
+/// Writes a body. `whole`: the steps are keys of all regions, which need no earlier light.
 std::vector<std::byte> write_regions(bool whole, std::span<const RegionStep> steps);
 
 struct RegionBody {
   bool whole = false;
   std::vector<RegionStep> steps;
 };
-/// Refers to the body. Fails on what no encoder wrote; there are so many regions.
+/// Reads a body, to which the result refers. `regions` is the number of regions. Fails on data that
+/// no encoder wrote.
 Expected<RegionBody> read_regions(std::span<const std::byte> body, std::size_t regions);
 
 }  // namespace lambent::stream

@@ -53,7 +53,7 @@ bool is_near(const Surroundings& client, const Region& region, const FieldGeomet
   const Volume& volume = geometry.volumes[region.volume];
   if (volume.role.follows_viewer) return true;
   const ProbeGrid& grid = volume.grid;
-  // The light of a probe counts as far as the next one
+  // The light of a probe extends to the neighbouring probes
   const glm::vec3 low = glm::vec3(region.low) - 1.0f, high = glm::vec3(region.high) + 1.0f;
   const glm::vec3 here = grid_coords(grid, client.position_ws);
   const float distance = glm::length((here - glm::clamp(here, low, high)) * grid.spacing);

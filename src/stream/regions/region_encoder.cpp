@@ -9,11 +9,11 @@
 namespace lambent::stream {
 namespace {
 
-// A region that is near stays so until it is this much farther, so that no client gets keys again
-// and again that stands where two regions meet.
+// A near region remains near up to this multiple of the distance, so that a client at the border of
+// two regions does not get keys repeatedly.
 constexpr float kStaysNear = 1.25f;
 
-/// The coefficients of a region, and their unit, with nothing learned.
+/// A state with the coefficients of a region, and their unit, with initial models.
 LightState part_of(const LightState& whole, const Region& region) {
   const std::size_t numbers = region.layout.numbers();
   LightState part;
@@ -60,7 +60,7 @@ bool RegionEncoder::follow(const LightDecoder& decoder) {
   return false;
 }
 
-/// Codes the step of a stream to the present light, if anybody follows it.
+/// Codes the step of a stream to the current light, if anybody follows it.
 void RegionEncoder::advance(std::size_t region, Stream& of, const LightState& whole) {
   if (of.light.update == 0) return;
   if (of.asked < of.light.update) {
@@ -100,7 +100,8 @@ LightMessage RegionEncoder::update_for(const LightDecoder& decoder, const Surrou
                               cut_->regions()[r], whole.current->geometry);
     RegionRate wanted = near ? RegionRate::near : RegionRate::far;
     const bool turn = has_its_turn(r, update_);
-    // A stream of every eighth update is entered where it has its turn: else light would go back
+    // Switch to a stream of every eighth update only when it has a step; otherwise light would go
+    // back in time
     if (!whole_message && wanted == RegionRate::far && !turn) wanted = before;
     has[r] = wanted;
     if (whole_message || wanted != before) {
@@ -110,7 +111,7 @@ LightMessage RegionEncoder::update_for(const LightDecoder& decoder, const Surrou
       steps.push_back({static_cast<std::uint32_t>(r), wanted, false,
                        static_cast<std::uint32_t>(update_ - of.from), of.delta});
     }
-    // Its next step will be asked for
+    // Mark that its next step will be requested
     Stream& followed = stream(r, wanted);
     followed.asked = std::max(followed.asked, update_);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The streams of regions, made of a stream of light that is whole.
+// Encodes the streams of regions from a stream of all light.
 #pragma once
 
 #include <cstdint>
@@ -14,27 +14,27 @@
 
 namespace lambent::stream {
 
-/// What a client follows of each region; empty before it got anything.
+/// The stream that a client follows, for each region; empty before its first message.
 using FollowedRegions = std::vector<RegionRate>;
 
 class RegionEncoder {
  public:
-  /// Takes what a decoder of the whole stream has come to: each update, in order, or the streams of
-  /// regions begin anew. Whether they do: then all clients need all.
+  /// Takes the state of a decoder of all light. If an update was skipped, the streams of regions
+  /// begin anew. Returns whether they do; all clients then need the whole state.
   bool follow(const LightDecoder& decoder);
 
-  /// The update as a client needs it that follows `has` and stands there, and what it follows then.
-  /// `all`: it has come late, has lost something, or streams begin anew.
+  /// The update for a client at `client` that follows the streams `has`, which is updated. `all`:
+  /// it joined late, has lost a message, or streams begin anew.
   LightMessage update_for(const LightDecoder& decoder, const Surroundings& client, bool all,
                           FollowedRegions& has);
 
  private:
-  /// A region's stream of one rate. What nobody follows is coded again once somebody does.
+  /// A region's stream of one rate. A stream that nobody follows is not coded until somebody does.
   struct Stream {
-    LightState light;              ///< Of `light.update`; 0: nobody has followed it.
-    std::uint64_t asked = 0;       ///< The last update for which somebody asked.
-    std::vector<std::byte> delta;  ///< To `light.update`, from `from`.
-    std::vector<std::byte> key;    ///< Of `key_update`.
+    LightState light;              ///< State after `light.update`; 0: nobody follows it.
+    std::uint64_t asked = 0;       ///< The last update for which it was requested.
+    std::vector<std::byte> delta;  ///< Leads from `from` to `light.update`.
+    std::vector<std::byte> key;    ///< Key of `key_update`.
     std::uint64_t from = 0, key_update = 0;
   };
   Stream& stream(std::size_t region, RegionRate rate) {

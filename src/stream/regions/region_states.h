@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a client has of each region, and follows of it.
+// A client's state of each region, and the stream that it follows.
 #pragma once
 
 #include <cstdint>
@@ -20,21 +20,21 @@ class RegionStates {
       : cut_(geometry, layout), states_(cut_.size()) {}
 
   std::size_t size() const { return cut_.size(); }
-  /// Follows probes that came into or out of solid matter.
+  /// Updates the layouts after probes came into or out of solid matter.
   void follow(const LightLayout& layout);
-  /// Takes the steps of an update, of which all that are deltas must follow on what is here.
-  /// `coefficients`, of all probes, become those of the regions that changed, and `changed` the
-  /// probes whose light did, ascending. Where it fails, nothing of it may be followed any more, and
-  /// both are as they were.
+  /// Applies the steps of an update, whose deltas must follow the current states. Updates
+  /// `coefficients`, of all probes, for the regions that changed, and sets `changed` to the probes
+  /// whose light changed, ascending. If it fails, both are unchanged, and this object must not be
+  /// used for further deltas.
   Expected<void> take(const RegionBody& body, std::uint64_t update,
                       std::vector<std::int32_t>& coefficients, std::vector<int>& changed);
-  /// Of all regions, after `take` took whole ones.
+  /// The unit of all regions, after `take` with keys of all.
   float unit() const { return states_.front().light.unit; }
 
  private:
   struct Followed {
     RegionRate rate = RegionRate::near;
-    LightState light;  ///< Its update is that of the light here.
+    LightState light;  ///< Its `update` is that of its light.
   };
   Expected<void> take_step(const RegionStep& step, std::uint64_t update);
 

@@ -15,7 +15,7 @@
 namespace lambent::stream {
 namespace {
 
-// A file of more has not been written by hand.
+// Largest size of a file, far above any written by hand.
 constexpr std::size_t kMaxTokenFileBytes = 1u << 20u;
 
 std::optional<std::int64_t> parse_time(const std::string& text) {
@@ -122,7 +122,7 @@ bool Access::still_good(const Admission& admission, std::int64_t now_s) const {
 }
 
 bool is_loopback(std::string_view host) {
-  // Names such as 127.example.org are of somebody else's
+  // Names such as 127.example.org are not addresses
   const bool numbers = host.find_first_not_of("0123456789.") == std::string_view::npos;
   return host == "localhost" || host == "::1" || (numbers && host.starts_with("127."));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who may look, and who may change: tokens in a file, and pages whose scripts may connect.
+// Access control: tokens in a file with their roles, and pages whose scripts may connect.
 #pragma once
 
 #include <array>
@@ -18,19 +18,19 @@ namespace lambent::stream {
 /// Shorter tokens could be guessed [characters].
 inline constexpr std::size_t kMinTokenBytes = 16;
 
-/// What is kept of a token: its SHA-256.
+/// The SHA-256 of a token, which is stored in its place.
 using TokenDigest = std::array<unsigned char, 32>;
 TokenDigest digest_of(std::string_view token);
 
-/// A token that is good at the moment.
+/// The result of checking a valid token.
 struct Admission {
   Role role = Role::view;
-  TokenDigest digest{};  ///< Names the token for `still_good`.
+  TokenDigest digest{};  ///< Identifies the token for `still_good`.
 };
 
-/// The tokens of a file, one a line: `view` or `change`, the token, and, where it expires, a time
-/// as 2026-12-31T23:59:59Z. Empty lines, and those that begin with #, count for nothing. Without a
-/// file everybody may change everything. Not thread-safe.
+/// The tokens of a file, one per line: `view` or `change`, the token, and optionally the time at
+/// which it expires, such as 2026-12-31T23:59:59Z. Empty lines, and those that begin with #, are
+/// ignored. Without a file everybody may change everything. Not thread-safe.
 class Access {
  public:
   Access() = default;
@@ -38,13 +38,13 @@ class Access {
   static Expected<Access> open(const std::string& path);
 
   bool needs_token() const { return !path_.empty(); }
-  /// What a token allows at a time [s since 1970], or nothing. Takes as long whichever token is
-  /// compared, and however much of one is right.
+  /// The role of a token at a time [s since 1970], or nothing. Takes the same time whichever token
+  /// is compared, and however much of it is right.
   std::optional<Admission> admit(std::string_view token, std::int64_t now_s) const;
-  /// Whether what was admitted once still is, in the same role.
+  /// Whether an admitted token is still valid, in the same role.
   bool still_good(const Admission& admission, std::int64_t now_s) const;
-  /// Reads the file again where it has changed: what is no longer in it is revoked. Where it is
-  /// missing or broken then, no token is good until it is mended; that is the error.
+  /// Reads the file again if it has changed: tokens that are no longer in it are revoked. If the
+  /// file is then missing or broken, this fails, and no token is valid until it is repaired.
   Expected<void> refresh();
 
  private:
@@ -53,7 +53,7 @@ class Access {
     TokenDigest digest{};
     std::optional<std::int64_t> expiry_s;
   };
-  /// What tells that a file has changed.
+  /// Identifies a version of a file.
   struct Stamp {
     std::int64_t modified_ns = 0;
     std::uint64_t size = 0, file = 0;
@@ -68,17 +68,19 @@ class Access {
   std::vector<Entry> entries_;
 };
 
-/// Hosts that a browser may believe to be at: the names under which the server is asked for.
+/// Checks of the headers Host and Origin, against DNS rebinding and foreign pages.
 class HostCheck {
  public:
-  /// On loopback, names of this machine alone; else any, as a token is asked for. Pages of
-  /// `origins` (as https://example.org) may connect besides our own.
+  /// On loopback, only names of this machine are accepted as hosts; otherwise any, since a token is
+  /// required. Pages of `origins` (such as https://example.org) may connect in addition to the
+  /// server's own.
   HostCheck(bool loopback, std::vector<std::string> origins);
 
-  /// Whether a request may name this host ("localhost:8080"). What another name leads here for is
-  /// a page of somebody else's that had its name changed to our address.
+  /// Whether a request may name this host ("localhost:8080"). Another name means a foreign page
+  /// whose name was redirected to this address (DNS rebinding).
   bool may_be_asked_as(std::string_view host) const;
-  /// Whether a page of this origin may open a stream at this host. Empty: no browser asks.
+  /// Whether a page of this origin may open a stream at this host. An empty origin is not from a
+  /// browser.
   bool may_connect(std::string_view origin, std::string_view host, bool tls) const;
 
  private:
@@ -86,7 +88,7 @@ class HostCheck {
   std::vector<std::string> origins_;
 };
 
-/// Whether an address, or "localhost", is reached from this machine alone.
+/// Whether an address, or "localhost", can be reached only from this machine.
 bool is_loopback(std::string_view host);
 
 }  // namespace lambent::stream

@@ -49,7 +49,7 @@ void ClientLink::take_received(const Received& received, Clock::time_point now,
                                std::optional<PathTime> path) {
   using Milliseconds = std::chrono::duration<double, std::milli>;
   while (!under_way_.empty() && under_way_.front().number <= received.picture) {
-    // One that was not sent yet cannot have arrived
+    // A picture that was not sent yet cannot have arrived
     const UnderWay& one = under_way_.front();
     if (!one.sent) return;
     const Milliseconds took = now - *one.sent;
@@ -105,7 +105,7 @@ std::optional<Refusal> ClientLink::receive(const Message& message, Clock::time_p
         message);
   }
   if (answer) put_notice(*answer);
-  // Answers to light are looked at with the next update: many clients send them all the time
+  // Answers to light do not wake the world, since many clients send them constantly
   const bool is_answer =
       std::holds_alternative<LightReceived>(message) || std::holds_alternative<Ping>(message);
   if (!is_answer) wake_world_();
@@ -117,7 +117,7 @@ void ClientLink::take_light_received(const LightReceived& received) {
     updates_under_way_.pop_front();
   }
   known_geometry_ = received.geometry;
-  // What it says of the time before all was sent again no longer counts
+  // Ignore reports from before the whole state was sent again
   if (received.needs_key == 1 && received.update >= all_sent_at_) light_lost_ = true;
 }
 
@@ -150,7 +150,7 @@ void ClientLink::put_light(std::span<const SharedBytes> messages, std::uint64_t 
     light_.insert(light_.end(), messages.begin(), messages.end());
     std::size_t bytes = 0;
     for (const SharedBytes& message : messages) bytes += message->size();
-    // A beginning takes its time, and keeps nobody from following it
+    // A whole state takes time to transfer, and must not count against the client
     updates_under_way_.push_back({update, what == LightNeed::all ? 0 : bytes});
     if (what == LightNeed::all) whole_bytes_ = bytes;
     if (what == LightNeed::all) {
@@ -266,7 +266,7 @@ void ClientLink::put_notice(const Message& message) {
   std::vector<std::byte> bytes = write_message(message);
   {
     const std::lock_guard lock(mutex_);
-    // Somebody who reads nothing misses what is told; the connection's deadline ends it
+    // Drop notices of a client that reads nothing; the connection's deadline ends it
     if (gone_ || notices_.size() >= kMaxNotices) return;
     notices_.push_back(std::move(bytes));
   }

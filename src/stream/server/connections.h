@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all connections share, and how each ends. For the files that include Boost.Beast alone.
+// The state that all connections share. Included only by files that use Boost.Beast.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -16,17 +16,17 @@
 
 namespace lambent::stream {
 
-/// A WebSocket that may be told to end.
+/// The listener's interface to a WebSocket.
 class Session {
  public:
   virtual ~Session() = default;
-  /// Tells the client why, and closes.
+  /// Sends the reason to the client, and closes.
   virtual void refuse(Refusal refusal) = 0;
-  /// Looks whether a deadline has passed, or a token is no longer good.
+  /// Checks deadlines, and whether the token is still valid.
   virtual void tick() = 0;
 };
 
-/// Used by the listener's thread alone.
+/// Used only by the listener's thread.
 struct ConnectionContext {
   ConnectionContext(const ListenSettings& listen, Hub& shared, Access who)
       : settings(listen),
@@ -41,12 +41,12 @@ struct ConnectionContext {
   std::unique_ptr<boost::asio::ssl::context> tls;  // null: none
   std::optional<SessionWriter> session;
   std::chrono::steady_clock::time_point session_start = std::chrono::steady_clock::now();
-  std::uint32_t session_clients = 0;  // so far
+  std::uint32_t session_clients = 0;  // number of clients so far
   std::size_t connections = 0;
   std::vector<std::weak_ptr<Session>> sessions;
-  boost::asio::io_context io{1};  // last: connections that it keeps end before all else
+  boost::asio::io_context io{1};  // last: its connections must be destroyed before everything else
 
-  /// Writes what a client did, where a session is recorded; none: it has gone.
+  /// Records a message of a client if a session is recorded; none: the client has left.
   void record(std::uint32_t client, std::optional<Message> message) {
     if (!session) return;
     const auto since = std::chrono::duration_cast<std::chrono::microseconds>(
@@ -62,7 +62,7 @@ struct ConnectionContext {
   }
 };
 
-/// Counts a connection while it lives.
+/// Counts a connection while it exists.
 class ConnectionCount {
  public:
   explicit ConnectionCount(ConnectionContext& context) : context_(&context) {

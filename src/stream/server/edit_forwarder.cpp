@@ -72,7 +72,7 @@ void EditForwarder::applied(const InputsApplied& told) {
   for (const auto& client : clients) tell_applied(client, told.update);
 }
 
-/// Tells a client which of its inputs, and all before, have been applied.
+/// Tells a client up to which of its inputs all have been applied.
 void EditForwarder::tell_applied(const std::shared_ptr<ClientLink>& client,
                                  std::uint64_t update) const {
   std::uint32_t applied = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edits of clients on their way to the server whose light they get.
+// Forwards edits of clients to the server that computes the light.
 #pragma once
 
 #include <cstdint>
@@ -14,52 +14,53 @@
 
 namespace lambent::stream {
 
-/// Of each target one edit is on its way; later ones are merged, and wait until it has arrived, so
-/// that any number of clients stays within what a server takes from one.
+/// At most one edit per target is in transit; later ones are merged and wait until it was applied,
+/// so that any number of clients stays within a server's limits for one client.
 class EditForwarder {
  public:
-  /// A server ends connections with more edits between two of its updates, or more messages a
-  /// second; light has to be answered, too.
+  /// Below a server's limits of edits between two updates and of messages per second, since light
+  /// must be answered, too.
   static constexpr std::size_t kMaxUnderWay = 48;
   static constexpr double kMaxRate = 100.0;
-  /// Of an edit that no answer came to by then no more is expected.
+  /// Time after which no answer to an edit is expected any more.
   static constexpr std::chrono::seconds kPatience{5};
 
   explicit EditForwarder(Clock::time_point now) : rate_(kMaxRate, kMaxRate, now) {}
 
   /// Takes a client's edit, numbered by the client.
   void add(const Edit& edit, const std::shared_ptr<ClientLink>& from);
-  /// The edits that are to be sent now, numbered anew.
+  /// The edits to be sent now, with new numbers.
   std::vector<Edit> due(Clock::time_point now);
-  /// The server has applied those up to a number: light of this update shows them. Clients of light
-  /// are told.
+  /// Handles that the server has applied edits up to a number, which light of this update shows.
+  /// Notifies clients of light.
   void applied(const InputsApplied& told);
-  /// Light of this update is here.
+  /// Handles that light of this update was received.
   void lit(std::uint64_t update);
-  /// The server refused one of those that are on their way; it does not say which.
+  /// Handles that the server refused one of the edits in transit; it is not known which.
   void refused(const std::string& why);
-  /// The server has gone, and with it what it was sent. Those who sent it are told why.
+  /// Handles that the connection was lost, and with it the edits in transit. Their senders are told
+  /// why.
   void forget(const std::string& why);
-  /// The last input of a client that pictures show, where `last_input` came last.
+  /// The last input of a client that pictures show; `last_input` is the last one received.
   std::uint32_t shown(const ClientLink& of, std::uint32_t last_input) const;
 
  private:
   struct Sender {
     std::weak_ptr<ClientLink> client;
-    std::uint32_t first = 0, last = 0;  ///< Of its inputs that are in the edit.
+    std::uint32_t first = 0, last = 0;  ///< Range of its inputs in the edit.
   };
   struct OnItsWay {
     Edit edit;
     std::vector<Sender> senders;
-    std::uint32_t number = 0;  ///< Ours, from 1; 0: it waits.
+    std::uint32_t number = 0;  ///< Number sent to the server, from 1; 0: not sent yet.
     Clock::time_point sent;
-    std::optional<std::uint64_t> update;  ///< That shows it, once it was applied.
+    std::optional<std::uint64_t> update;  ///< Update that shows it, once it was applied.
   };
   void tell_applied(const std::shared_ptr<ClientLink>& client, std::uint64_t update) const;
   static void tell(const OnItsWay& one, const std::string& why);
 
   RateLimit rate_;
-  std::vector<OnItsWay> edits_;  // at most two a target: one that was sent and one that waits
+  std::vector<OnItsWay> edits_;  // at most two per target: one that was sent and one that waits
   std::uint32_t last_number_ = 0;
 };
 

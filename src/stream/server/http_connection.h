@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A connection's first request: answered, or the beginning of a WebSocket.
+// Handles a connection's first request: answers it, or opens a WebSocket.
 #pragma once
 
 #include <boost/beast/core.hpp>
@@ -44,9 +44,9 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
   }
 
  private:
-  // Of a request line with its headers [bytes].
+  // Largest request line with headers [bytes].
   static constexpr std::uint32_t kMaxHeaderBytes = 8192;
-  // Who takes an answer more slowly is gone: 1 Mbit/s.
+  // Slower readers of an answer are disconnected: 1 Mbit/s.
   static constexpr std::size_t kLeastBytesPerSecond = 125'000;
 
   std::string_view header(boost::beast::http::field name) const {
@@ -136,7 +136,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
   Stream stream_;
   boost::beast::flat_buffer buffer_;
   boost::beast::http::request_parser<boost::beast::http::empty_body> parser_;
-  std::string body_;  // of an answer that is not kept by the server
+  std::string body_;  // body of an answer that does not refer to the server's data
   boost::beast::http::response<boost::beast::http::span_body<const char>> answer_;
 };
 

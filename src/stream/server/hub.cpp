@@ -91,7 +91,7 @@ std::string Hub::stats_json() const {
     json["light_server_connections"] = now.light_from->connections;
     json["light_server_lost_because"] = now.light_from->lost_because;
   }
-  // Text of others may be no UTF-8
+  // Text from elsewhere may not be UTF-8
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

@@ -11,13 +11,13 @@
 namespace lambent::stream {
 namespace {
 
-// Keys of textures are a score of times as large as what follows, for all.
+// Keys of textures are about 20 times as large as other pictures, and are sent to all clients.
 constexpr std::chrono::seconds kTextureKeyInterval{1};
-// Where nobody gets light it is coded so often all the same: who comes then waits for what has
-// changed since to be coded, and not for all that there is.
+// Interval at which light is coded even without clients, so that a new client waits only for the
+// coding of recent changes, not of the whole state.
 constexpr std::chrono::seconds kIdleInterval{1};
 
-/// Edits, and the light that is of the scene after them.
+/// Messages of edits, followed by the light of the edited scene.
 std::vector<SharedBytes> written(std::span<const Edit> edits, std::span<const LightMessage> light,
                                  float time_s) {
   const auto shared = [](const Message& message) {
@@ -58,7 +58,7 @@ std::uint64_t LightSender::next_update(const ClientLink& client) const {
 }
 
 void LightSender::add_edit(const Edit& edit) {
-  // Numbers of inputs are their sender's own
+  // Input numbers are local to their sender
   Edit told = edit;
   std::visit([](auto& any) { any.input = 0; }, told);
   const auto [known, is_new] = edited_.try_emplace(target_of(told), told);
@@ -84,12 +84,12 @@ void LightSender::put(ClientLink& client, std::span<const SharedBytes> messages,
   for (const SharedBytes& message : messages) bytes_sent_ += message->size();
 }
 
-/// Whether a number is another one than the last, which it becomes.
+/// Sets `last` to a number, and returns whether it has changed.
 bool LightSender::is_new(std::uint64_t number, std::uint64_t& last) {
   return std::exchange(last, number) != number;
 }
 
-/// Sends what can come later than the light to clients that have been sent that.
+/// Sends corrections to clients that were sent the light.
 void LightSender::put_corrections(const LightEncoder& encoder, std::span<ClientLink* const> clients,
                                   float time_s) {
   if (clients.empty()) return;
@@ -106,7 +106,7 @@ std::vector<Edit> LightSender::all_edits() const {
   return all;
 }
 
-/// Takes changes in where anybody gets regions of them.
+/// Decodes changes if any client gets light by regions.
 void LightSender::follow_by_regions(std::span<const LightMessage> changes) {
   if (!regions_.any()) return;
   const auto take = [this](std::span<const LightMessage> messages) {
@@ -119,7 +119,7 @@ void LightSender::follow_by_regions(std::span<const LightMessage> changes) {
   regions_.follow(whole_);
 }
 
-/// Whether it is time to code light for who may come.
+/// Whether it is time to code light without clients.
 bool LightSender::is_due_for_nobody() {
   const Clock::time_point now = Clock::now();
   if (now < next_idle_) return false;
@@ -156,9 +156,9 @@ Expected<void> LightSender::send_coded(const IrradianceField& field, float time_
   return begin(to.begin, time_s);
 }
 
-/// Sends all that there is as of the last update.
+/// Sends the whole state after the last update.
 Expected<void> LightSender::begin(std::span<ClientLink* const> clients, float time_s) {
-  // Many who come at once are sent the same bytes
+  // Clients that join at the same time share the same bytes
   std::map<std::uint64_t, std::vector<SharedBytes>> by_geometry;
   std::vector<ClientLink*> to_correct;
   for (ClientLink* client : clients) {
@@ -180,7 +180,8 @@ Expected<void> LightSender::begin(std::span<ClientLink* const> clients, float ti
     put(*client, messages->second, encoder_.update(), LightNeed::all);
     if (known != encoder_.geometry()) to_correct.push_back(client);
   }
-  // They are on their way while these are coded. Who has the geometry gets them, or has them
+  // Code the corrections while the light is sent. Clients that had the geometry already have these,
+  // or get them otherwise
   put_corrections(encoder_, to_correct, time_s);
   return {};
 }
@@ -190,7 +191,7 @@ Expected<void> LightSender::greet(const IrradianceField& field, float time_s,
   const Receivers to = receivers_of(newcomers, kWantsLight);
   if (!to.any()) return {};
   if (!is_current_) {
-    // Nobody follows, who would miss this update
+    // No client follows the stream, so none misses this update
     const auto changes = encoder_.encode(field);
     if (!changes) return tl::unexpected(changes.error());
     is_current_ = true;
@@ -199,7 +200,7 @@ Expected<void> LightSender::greet(const IrradianceField& field, float time_s,
   return begin(to.begin, time_s);
 }
 
-/// As send_coded; a key is one for all, and comes once a second at most.
+/// Like send_coded, for textures. A key is sent to all clients, at most once a second.
 Expected<void> LightSender::send_textures(const IrradianceField& field, float time_s,
                                           std::span<const Edit> edits, Receivers to) {
   const Clock::time_point now = Clock::now();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light to clients that render pictures of their own: encoded once for all of them.
+// Sends light to clients that render their own pictures; it is encoded once for all of them.
 #pragma once
 
 #include <cstdint>
@@ -17,27 +17,27 @@ namespace lambent::stream {
 
 class LightSender {
  public:
-  /// Fails on settings out of range. Each start is another stream, whatever the settings say.
+  /// Fails on settings out of range. Each object starts a new stream, whatever the settings say.
   static Expected<LightSender> make(LightEncoderSettings settings);
 
-  /// Remembers edits that the world has accepted, for who comes later, and sends them with the next
-  /// light.
+  /// Stores edits that the world has accepted, for clients that join later, and sends them with the
+  /// next light.
   void add_edit(const Edit& edit);
-  /// Who gets light by regions.
+  /// The clients that get light by regions.
   RegionSender& regions() { return regions_; }
-  /// Sends the light after an update of the field to those clients that want any. Fails on light
-  /// that is not finite.
+  /// Sends the light after an update of the field to those clients that request light. Fails on
+  /// light that is not finite.
   Expected<void> send(const IrradianceField& field, float time_s,
                       std::span<ClientLink* const> clients);
 
-  /// Sends the light as it is between two updates to clients that have just come and want it, so
-  /// that they need not wait for the next one.
+  /// Sends the current light to new clients that request it, so that they need not wait for the
+  /// next update.
   Expected<void> greet(const IrradianceField& field, float time_s,
                        std::span<ClientLink* const> newcomers);
 
-  /// The number of the next update that a client is sent: the first that shows edits added now.
+  /// The number of the next update for a client, the first that shows edits added now.
   std::uint64_t next_update(const ClientLink& client) const;
-  /// To all clients so far.
+  /// Bytes sent to all clients so far.
   std::uint64_t bytes_sent() const { return bytes_sent_; }
 
  private:
@@ -65,15 +65,15 @@ class LightSender {
 
   LightEncoder encoder_;
   RegionSender regions_;
-  bool is_current_ = false;               // the encoder has the field's last update
-  LightDecoder whole_;                    // follows the encoder while somebody gets regions
-  std::optional<LightEncoder> textures_;  // where there is a video codec
-  Clock::time_point next_texture_key_;    // not before
-  Clock::time_point next_idle_;           // the same, of light that nobody gets
-  // LightEncoder::corrections_number of those that all have been sent who follow
+  bool is_current_ = false;  // the encoder has encoded the field's last update
+  LightDecoder whole_;       // decodes the encoder's output while any client gets regions
+  std::optional<LightEncoder> textures_;  // set if there is a video codec
+  Clock::time_point next_texture_key_;    // earliest time
+  Clock::time_point next_idle_;           // earliest time to encode light without clients
+  // LightEncoder::corrections_number of the corrections that were sent to all clients
   std::uint64_t corrections_sent_ = 0, texture_corrections_sent_ = 0;
   std::map<EditTarget, Edit> edited_;  // since the scene was opened
-  std::vector<Edit> new_edits_;        // since light was sent last
+  std::vector<Edit> new_edits_;        // since the last light
   std::uint64_t bytes_sent_ = 0;
 };
 

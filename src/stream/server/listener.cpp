@@ -19,12 +19,12 @@ namespace {
 using boost::asio::ip::tcp;
 using ErrorCode = boost::system::error_code;
 
-// How often deadlines and tokens are looked at.
+// Interval at which deadlines and tokens are checked.
 constexpr std::chrono::milliseconds kTick{250};
-// Until connections that are told to go have gone.
+// Time for connections to close.
 constexpr std::chrono::seconds kDrainTimeout{2};
 
-/// A TLS server of today: versions 1.2 and 1.3, with the files' certificate.
+/// Settings of TLS 1.2 and 1.3, with the certificate of the files.
 Expected<std::unique_ptr<boost::asio::ssl::context>> make_tls(const ListenSettings& settings) {
   namespace ssl = boost::asio::ssl;
   auto tls = std::make_unique<ssl::context>(ssl::context::tls_server);
@@ -55,10 +55,11 @@ Expected<tcp::endpoint> resolve(boost::asio::io_context& io, const ListenSetting
   return found.begin()->endpoint();
 }
 
-/// Has the system take no more than it can send soon, so that what is put last may go first.
+/// Limits the system's queue of unsent bytes, so that later messages of higher priority can go
+/// first.
 void keep_short([[maybe_unused]] tcp::socket& socket) {
 #ifdef TCP_NOTSENT_LOWAT
-  constexpr int kUnsentBytes = 131'072;  // more than a look at the socket takes at 1 Gbit/s
+  constexpr int kUnsentBytes = 131'072;  // enough between two polls of the socket at 1 Gbit/s
   ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kUnsentBytes,
                sizeof(kUnsentBytes));
 #endif
@@ -69,7 +70,7 @@ class BeastListener : public Listener {
   BeastListener(const ListenSettings& settings, Hub& hub, Access access)
       : context_(settings, hub, std::move(access)), acceptor_(context_.io), timer_(context_.io) {}
 
-  // Where not even memory is left to tell the thread to end, ending the program is all there is
+  // If there is no memory to post the end to the thread, terminating the program is the only option
   ~BeastListener() override {  // NOLINT(bugprone-exception-escape)
     if (thread_.joinable()) drain();
   }
@@ -141,7 +142,7 @@ class BeastListener : public Listener {
         context_.io.run();
         done = true;
       } catch (const std::exception& failure) {
-        // One connection's misfortune, such as memory that ran out, is not that of all
+        // The failure of one connection, such as lack of memory, must not end the others
         context_.settings.log(std::string("a connection failed: ") + failure.what());
       }
     }
@@ -158,7 +159,7 @@ class BeastListener : public Listener {
   void take(tcp::socket socket) {
     if (context_.connections >= context_.settings.max_connections) {
       context_.count_refused();
-      return;  // which closes it
+      return;  // which closes the socket
     }
     ErrorCode ignored;
     socket.set_option(tcp::no_delay(true), ignored);
@@ -172,7 +173,7 @@ class BeastListener : public Listener {
     }
   }
 
-  /// Deadlines, tokens, and the end of it all.
+  /// Checks deadlines and tokens, and completes `drain`.
   void tick() {
     std::erase_if(context_.sessions, [](const auto& weak) { return weak.expired(); });
     if (ending_ && (context_.connections == 0 || Clock::now() > *ending_)) {

@@ -10,9 +10,9 @@
 namespace lambent::stream {
 namespace {
 
-// Pictures over which noise is averaged away once nothing moves any more.
+// Number of pictures over which noise is averaged once nothing changes.
 constexpr int kPicturesToSettle = 16;
-// Of the way to the exposure that suits a picture, each picture goes this share.
+// Share of the difference to a picture's own exposure by which each picture changes the exposure.
 constexpr float kExposureStep = 0.2f;
 
 }  // namespace
@@ -42,8 +42,8 @@ std::optional<Clock::time_point> PictureMaker::due(const WorldState& state) cons
                      std::chrono::duration<double>(1.0 / static_cast<double>(pace_.rate())));
 }
 
-// Finds at which radiance unlit surfaces show their colours. It stays as it is: exposure follows
-// what pictures show, and would never come to rest if they followed it.
+// Finds the radiance at which unlit surfaces show their colours. It is then constant: the exposure
+// depends on the pictures, and would not converge if these depended on it.
 Expected<void> PictureMaker::expose_unlit(FrameSettings& frame) {
   if (!unlit_radiance_ && !shows_unlit(world_.scene())) unlit_radiance_ = frame.unlit_radiance;
   if (!unlit_radiance_) {
@@ -63,7 +63,8 @@ Expected<void> PictureMaker::render() {
   FrameSettings frame = settings_.frame;
   frame.width = static_cast<int>(pace_.size().x);
   frame.height = static_cast<int>(pace_.size().y);
-  if (frame.averaged_frames == 1) frame.seed += number_;  // averaged light draws its own
+  // with averaging, the renderer varies the seed
+  if (frame.averaged_frames == 1) frame.seed += number_;
   if (const auto exposed = expose_unlit(frame); !exposed) return exposed;
   return renderer_.render(camera_, frame, frame_);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One client's pictures: its camera, rendered and encoded at its pace.
+// Renders and encodes one client's pictures, with its camera and at its pace.
 #pragma once
 
 #include <optional>
@@ -15,17 +15,17 @@
 namespace lambent::stream {
 
 struct PictureSettings {
-  FrameSettings frame;  ///< But for the size.
+  FrameSettings frame;  ///< Except the size.
   PaceLimits limits;
   ToneMap tone_map = ToneMap::aces;
-  std::optional<float> exposure_stops;  ///< None: as suits the pictures, followed smoothly.
+  std::optional<float> exposure_stops;                 ///< None: automatic, with smooth changes.
   std::string encoder = std::string(kDefaultEncoder);  ///< One of picture_encoders().
 };
 
-/// Where the world is, as pictures tell it.
+/// The state of the world, for pictures.
 struct WorldState {
-  std::uint64_t updates = 0;      ///< So far.
-  std::uint64_t last_change = 0;  ///< The update that last changed what pictures show.
+  std::uint64_t updates = 0;      ///< Number so far.
+  std::uint64_t last_change = 0;  ///< The last update that changed pictures.
 };
 
 class PictureMaker {
@@ -34,12 +34,11 @@ class PictureMaker {
   PictureMaker(const World& world, const IrradianceField& field, const PictureSettings& settings,
                const Camera& camera, const Hello& hello);
 
-  /// Follows what the client sent.
+  /// Applies a client's inputs.
   void follow(const ClientInputs& inputs);
-  /// When the next picture is due; none: nothing has changed since the last ones, which have
-  /// settled.
+  /// Time at which the next picture is due; none: nothing has changed, and pictures have converged.
   std::optional<Clock::time_point> due(const WorldState& state) const;
-  /// Renders and encodes what the camera sees now.
+  /// Renders and encodes the current view.
   Expected<Picture> make(const WorldState& state, Clock::time_point now);
 
   const Pace& pace() const { return pace_; }
@@ -57,10 +56,10 @@ class PictureMaker {
   std::optional<PictureEncoder> encoder_;
   RenderedFrame frame_;
   YuvPicture yuv_;
-  std::optional<float> stops_;           // of the last picture
-  std::optional<float> unlit_radiance_;  // after the first one
+  std::optional<float> stops_;           // exposure of the last picture
+  std::optional<float> unlit_radiance_;  // set by the first picture
   std::uint32_t number_ = 0, last_input_ = 0;
-  int still_pictures_ = 0;  // since something changed
+  int still_pictures_ = 0;  // number since the last change
   std::uint64_t shown_change_ = 0;
   Clock::time_point last_;
 };

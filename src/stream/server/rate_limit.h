@@ -8,13 +8,13 @@ namespace lambent::stream {
 
 using Clock = std::chrono::steady_clock;
 
-/// Lets so many events a second pass in the mean, and at most `burst` at once.
+/// A token bucket: allows `rate` events per second on average, and at most `burst` at once.
 class RateLimit {
  public:
   RateLimit(double rate, double burst, Clock::time_point now)
       : rate_(rate), burst_(burst), left_(burst), last_(now) {}
 
-  /// Counts an event; false where it is one too many.
+  /// Counts an event; returns false if it exceeds the limit.
   bool pass(Clock::time_point now) {
     left_ = std::min(burst_, left_ + rate_ * std::chrono::duration<double>(now - last_).count());
     last_ = now;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who gets light by regions, and what each of them follows.
+// The clients that get light by regions, and the streams that each follows.
 #pragma once
 
 #include <map>
@@ -14,16 +14,16 @@ namespace lambent::stream {
 
 class RegionSender {
  public:
-  /// Where a client is; none: it gets all light.
+  /// Sets a client's surroundings; none: it gets all light.
   void set_surroundings(const ClientLink& client, const std::optional<Surroundings>& where);
   bool serves(const ClientLink& client) const { return clients_.contains(&client); }
   bool any() const { return !clients_.empty(); }
-  /// Forgets all other clients.
+  /// Removes all clients except these.
   void keep(std::span<ClientLink* const> clients);
 
-  /// Takes the next light, once for all.
+  /// Takes the next light, once for all clients.
   void follow(const LightDecoder& whole) { anew_ = regions_.follow(whole); }
-  /// Of that light what a client needs that it serves.
+  /// The message of that light for a client.
   LightMessage update_for(const LightDecoder& whole, const ClientLink& client, bool all);
 
  private:

@@ -62,7 +62,7 @@ std::optional<Refusal> RelayedLight::forward(std::span<const Edit> edits,
   return std::nullopt;
 }
 
-/// Notices where the connection went or came.
+/// Logs when the connection was lost or restored.
 void RelayedLight::watch() {
   const UpstreamStatus status = upstream_.status();
   if (status.connected == connected_) return;
@@ -76,21 +76,22 @@ void RelayedLight::begin_connection(const Welcome& welcome) {
   can_change_ = welcome.role == Role::change;
   is_new_ = true;
   held_.clear();
-  // What it was sent before, it may not have applied
+  // It may not have applied the edits that were sent before
   edits_.forget("the server of the light was away");
-  // So that it sends no geometry that is here; corrections come with geometry alone
+  // Report the known geometry, so that it is not sent again. Corrections are sent only with
+  // geometry, so only if these are complete
   const LightDecoder& decoder = lit_.decoder();
   if (decoder.geometry() != 0 && decoder.has_corrections()) {
     upstream_.send(LightReceived{decoder.update(), decoder.geometry(), 0});
   }
 }
 
-/// The first light of a connection: of the stream that we have, or of a server that started anew,
-/// whose scene is as it was opened.
+/// Handles the first light of a connection: it continues the known stream, or the server has
+/// restarted with its original scene.
 Expected<void> RelayedLight::begin_stream(const LightPayload& light,
                                           std::span<ClientLink* const> clients) {
   const auto message = open_message(light.bytes);
-  // What is broken is asked for again
+  // Broken messages are requested again
   if (!message) return {};
   is_new_ = false;
   if (message->header.stream == std::exchange(stream_, message->header.stream)) return {};
@@ -139,8 +140,8 @@ Expected<void> RelayedLight::take_light(const LightPayload& light,
   return {};
 }
 
-/// A piece of corrections: of use to all that have the light, also to those that have not kept up,
-/// as these may get no geometry again, and so no corrections with it.
+/// Handles a piece of corrections. It is relayed to all clients that have the light, also to those
+/// that have not kept up, since these may not get geometry again, and so no corrections with it.
 Expected<void> RelayedLight::take_corrections(const LightPayload& light,
                                               std::span<ClientLink* const> clients) {
   const auto taken = lit_.follow(light);
@@ -152,14 +153,14 @@ Expected<void> RelayedLight::take_corrections(const LightPayload& light,
   const std::array<SharedBytes, 1> piece = {shared(light)};
   for (ClientLink* client : clients) {
     const bool has_none = client->known_geometry() == 0 && client->need_light() == LightNeed::all;
-    if (has_none) continue;  // it gets them with its first light
+    if (has_none) continue;  // it gets corrections with its first light
     client->put_later(piece, anew);
     bytes_sent_ += piece.front()->size();
   }
   return {};
 }
 
-/// Sends the light as it came to those that follow it, and all of it to those that begin.
+/// Relays the light unchanged to clients that follow it, and sends the whole state to new ones.
 void RelayedLight::hand_on(std::span<ClientLink* const> clients) {
   const std::vector<SharedBytes> edits = std::exchange(edits_since_, {});
   const std::vector<SharedBytes> light = std::exchange(light_since_, {});
@@ -185,7 +186,7 @@ void RelayedLight::hand_on(std::span<ClientLink* const> clients) {
     }
     if (need != LightNeed::all) continue;
     auto all = lit_.decoder().join(client->known_geometry());
-    if (!all) continue;  // light that is incomplete here comes again
+    if (!all) continue;  // incomplete light will be received again
     if (regions_.serves(*client)) {
       all->back() = regions_.update_for(lit_.decoder(), *client, true);
     }
@@ -193,7 +194,7 @@ void RelayedLight::hand_on(std::span<ClientLink* const> clients) {
     for (const auto& [target, edit] : edited_) messages.push_back(shared(edit));
     for (const LightMessage& message : *all) messages.push_back(payload(message));
     put(*client, messages, LightNeed::all);
-    // Who has the geometry gets its corrections, or has them
+    // Clients that have the geometry also have its corrections, or get them otherwise
     if (all->size() == 1) continue;
     std::vector<SharedBytes> later;
     for (const LightMessage& message : lit_.decoder().corrections()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light that another server computes: shown here, and handed on to clients of light as it came.
+// Light from another server: rendered here, and relayed unchanged to clients of light.
 #pragma once
 
 #include <cstdint>
@@ -20,47 +20,49 @@
 
 namespace lambent::stream {
 
-/// How much light changes from one state of a decoder to the next.
+/// Measures the change of light from one state of a decoder to the next.
 class LightChangeMeter {
  public:
-  /// Of the probes that the last message changed; root mean square over root mean square.
+  /// The relative change of those probes that the last message changed: root mean square over root
+  /// mean square.
   double measure(const LightDecoder& decoder);
 
  private:
   std::vector<glm::vec3> light_;  // tile after tile
-  double squares_ = 0.0;          // the sum over it
+  double squares_ = 0.0;          // sum of squares of light_
 };
 
-/// Used by the world's loop alone.
+/// Used only by the world's loop.
 class RelayedLight {
  public:
-  /// Refers to all of them, which must outlive it. `log` is told where the server goes and comes.
+  /// Refers to all of its arguments, which must outlive it. `log` is called when the server's
+  /// connection is lost or restored.
   RelayedLight(Scene& scene, World& world, Upstream& upstream,
                std::function<void(const std::string&)> log);
 
-  /// The light's field; null before the first light. Stays where it is.
+  /// The light's field; null before the first light. The pointer stays valid.
   const IrradianceField* field() const { return lit_.field(); }
-  /// The update of the light that it is.
+  /// The update whose light the field has.
   std::uint64_t update() const { return lit_.update(); }
 
-  /// Sends edits of a client's to the server. What is returned is why that cannot be.
+  /// Sends edits of a client to the server. Returns a refusal if that is not possible.
   std::optional<Refusal> forward(std::span<const Edit> edits,
                                  const std::shared_ptr<ClientLink>& from);
-  /// The last input of a client that pictures show, where `last_input` came last.
+  /// The last input of a client that pictures show; `last_input` is the last one received.
   std::uint32_t shown(const ClientLink& of, std::uint32_t last_input) const {
     return edits_.shown(of, last_input);
   }
 
   struct Followed {
-    std::uint64_t updates = 0;  ///< That came.
-    double change = 0.0;        ///< Of the light, root mean square over root mean square.
-    bool moved = false;         ///< The scene is another than before.
+    std::uint64_t updates = 0;  ///< Number received.
+    double change = 0.0;  ///< Relative change of the light, root mean square over root mean square.
+    bool moved = false;   ///< The scene has changed.
   };
-  /// Takes in what has come, and hands it on to clients of light. Fails where the scene cannot be
-  /// what the server's is.
+  /// Applies received messages, and relays them to clients of light. Fails where the scene cannot
+  /// follow the server's.
   Expected<Followed> follow(std::span<ClientLink* const> clients);
 
-  /// Who gets light by regions.
+  /// The clients that get light by regions.
   RegionSender& regions() { return regions_; }
   /// Bytes of light to all clients so far.
   std::uint64_t bytes_sent() const { return bytes_sent_; }
@@ -82,14 +84,15 @@ class RelayedLight {
   LightChangeMeter meter_;
   RegionSender regions_;
   bool connected_ = true, can_change_ = false;
-  bool is_new_ = true;  // no light of this connection has come yet
+  bool is_new_ = true;  // no light of this connection was received yet
   std::uint32_t stream_ = 0;
-  float time_s_ = -1.0f;               // of the last light
-  std::vector<Edit> held_;             // come with the light that follows
+  float time_s_ = -1.0f;               // animation time of the last light
+  std::vector<Edit> held_;             // to be sent with the next light
   std::map<EditTarget, Edit> edited_;  // since the scene was opened
-  // What leads to the next light
+  // Messages since the last light, up to the next
   std::vector<SharedBytes> edits_since_, light_since_;
-  std::uint64_t corrections_handed_on_ = 0;  // LightDecoder::corrections_number of the last piece
+  // LightDecoder::corrections_number of the last relayed piece
+  std::uint64_t corrections_handed_on_ = 0;
   std::uint64_t bytes_sent_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is answered to plain HTTP: the page, whether the server is well, and how it fares.
+// Responses to plain HTTP requests: the pages, health checks, and statistics.
 #pragma once
 
 #include <string>
@@ -9,21 +9,21 @@
 
 namespace lambent::stream {
 
-/// Where clients open their WebSocket.
+/// Target at which clients open their WebSocket.
 inline constexpr std::string_view kStreamTarget = "/stream";
 
 struct Response {
   unsigned status = 200;
   std::string_view type = "text/plain; charset=utf-8";
   std::string body{};
-  /// In place of the body: what lives as long as the server.
+  /// Used in place of the body, for data that lives as long as the server.
   std::string_view kept{};
-  /// A further header that the status asks for; empty: none.
+  /// A further header that the status requires; empty: none.
   std::string_view header{}, header_value{};
 };
 
-/// The answer to a request for a target. `authorized`: a good token came with it, or none is
-/// needed. `scene` is shared as /scene.glb; null: it is not.
+/// The response to a request for a target. `authorized`: it has a valid token, or none is needed.
+/// `scene` is served as /scene.glb; null: it is not.
 Response respond_to(std::string_view method, std::string_view target, bool authorized,
                     const Hub& hub, const std::string* scene);
 

@@ -34,7 +34,7 @@ Expected<std::unique_ptr<Server>> Server::open(const RelayedWorld& relayed,
 Expected<std::unique_ptr<Server>> Server::listening(std::unique_ptr<Server> server,
                                                     const ServerSettings& settings) {
   ListenSettings listen = settings.listen;
-  // Plain requests get through when there are as many clients as may be
+  // Reserve connections for plain requests when the number of clients is at its limit
   constexpr std::size_t kPlainConnections = 56;
   listen.max_connections =
       std::max(listen.max_connections, settings.max_clients + kPlainConnections);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A server of light and pictures: the world's loop and who listens for clients.
+// A server of light and pictures: the world's loop and a listener for clients.
 #pragma once
 
 #include <functional>
@@ -15,18 +15,19 @@ struct ServerSettings {
   ListenSettings listen;
   WorldSettings world;
   std::size_t max_clients = 8;
-  /// Of these, clients of pictures: each takes a renderer's memory (Renderer).
+  /// Maximum number of these that request pictures; each takes a renderer's memory (Renderer).
   std::size_t max_picture_clients = 8;
-  BrokerAddress publish;  ///< Where light goes besides, as one of the clients; no name: nowhere.
+  /// Broker to which light is published, too, as one of the clients; no name: none.
+  BrokerAddress publish;
 };
 
 class Server {
  public:
-  /// Listens from now on; clients are answered once it runs. Fails as Listener::open does.
+  /// Starts to listen; clients are answered once `run` is called. Fails as Listener::open does.
   static Expected<std::unique_ptr<Server>> open(const ServedWorld& served,
                                                 const ServerSettings& settings);
 
-  /// The same where another server computes the light.
+  /// A server whose light another server computes.
   static Expected<std::unique_ptr<Server>> open(const RelayedWorld& relayed,
                                                 const ServerSettings& settings);
   ~Server();
@@ -35,8 +36,9 @@ class Server {
   std::uint16_t port() const { return listener_->port(); }
   HubStats stats() const { return hub_.stats(); }
 
-  /// Serves until `stop` says so, asked some ten times a second or more; then tells clients, and
-  /// returns when they have gone. Fails where the world cannot go on.
+  /// Serves until `stop` returns true, which is called at least about ten times a second; then
+  /// notifies clients, and returns when they have disconnected. Fails where the world cannot
+  /// continue.
   Expected<void> run(const std::function<bool()>& stop);
 
  private:
@@ -46,7 +48,7 @@ class Server {
                                                      const ServerSettings& settings);
 
   Hub hub_;
-  Upstream* upstream_ = nullptr;  // that wakes the hub; null: none
+  Upstream* upstream_ = nullptr;  // wakes the hub; null: none
   WorldLoop loop_;
   std::unique_ptr<Listener> listener_;
   std::unique_ptr<BrokerPublisher> publisher_;  // null: none

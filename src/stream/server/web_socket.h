@@ -18,7 +18,7 @@
 
 namespace lambent::stream {
 
-/// Reads messages of a client and writes what its link has for it, one at a time.
+/// Reads messages of a client, and writes those of its link, one at a time.
 template <class Stream>
 class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<Stream>> {
  public:
@@ -39,7 +39,7 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
   void accept(const Request& request) {
     namespace websocket = boost::beast::websocket;
     context_.sessions.push_back(this->weak_from_this());
-    // From here on the WebSocket watches the time
+    // From here on, the WebSocket has its own timeouts
     boost::beast::get_lowest_layer(socket_).expires_never();
     websocket::stream_base::timeout timeouts{};
     timeouts.handshake_timeout = context_.settings.hello_timeout;
@@ -54,7 +54,7 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
       socket_.set_option(websocket::stream_base::decorator(
           [](websocket::response_type& response) { response.set(kHelloField, kHelloTaken); }));
     }
-    // What there is to write waits until the answer has been
+    // Messages wait until the handshake's answer was sent
     socket_.async_accept(request, [self = this->shared_from_this()](ErrorCode error) {
       if (error) return self->leave();
       self->open_ = true;
@@ -67,7 +67,7 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
   void refuse(Refusal refusal) override {
     if (farewell_ || closing_) return;
     if (refusal.code != Refusal::Code::shutting_down) context_.count_refused();
-    // One that is not read ends with the connection
+    // If the client does not read it, the connection is closed at the deadline
     farewell_ = write_message(std::move(refusal));
     close_deadline_ = Clock::now() + kCloseTimeout;
     pump();
@@ -112,7 +112,7 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
     });
   }
 
-  /// A hello that came with the request.
+  /// Handles a Hello in the request's header.
   void take_header(std::string_view digits) {
     const auto message = read_hello_header(digits);
     if (!message) return refuse({Refusal::Code::bad_message, message.error().message()});
@@ -171,13 +171,13 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
     context_.record(session_client_, kept);
   }
 
-  /// Of clients of pictures, whose pace follows it.
+  /// The path time, for clients of pictures, whose pace depends on it.
   std::optional<PathTime> path_time() {
     if (!link_->wants(kWantsPicture)) return std::nullopt;
     return path_time_of(boost::beast::get_lowest_layer(socket_).socket().native_handle());
   }
 
-  /// Writes what there is to write, unless something is being written.
+  /// Writes the next message, unless a write is in progress.
   void pump() {
     if (!open_ || writing_since_ || closing_) return;
     if (farewell_) {

@@ -11,9 +11,9 @@
 namespace lambent::stream {
 namespace {
 
-// Light that changed by more than this in an update is seen to change: as settle_field counts.
+// Relative change of light in an update that counts as visible, as in settle_field.
 constexpr double kSeenChange = 0.002;
-// At most this long until somebody asks whether to stop.
+// Longest wait between two calls of `stop`.
 constexpr std::chrono::milliseconds kLongestWait{50};
 constexpr std::chrono::seconds kStatsInterval{1};
 
@@ -37,7 +37,7 @@ WorldLoop::WorldLoop(const Served& served, const WorldSettings& settings, Hub& h
   welcome();
 }
 
-/// What pictures are made with; null where no light has come yet.
+/// The field for pictures; null if there is no light yet.
 const IrradianceField* WorldLoop::field() const {
   return relayed_ ? relayed_->field() : served_.field;
 }
@@ -68,7 +68,7 @@ void WorldLoop::welcome() {
   hub_.set_welcome(told);
 }
 
-/// Takes in who has come, and forgets who has gone. Returns who has come.
+/// Adds new clients, and removes those that have left. Returns the new ones.
 std::vector<ClientLink*> WorldLoop::meet_clients() {
   std::vector<ClientLink*> newcomers;
   const std::uint64_t membership = hub_.membership();
@@ -81,13 +81,13 @@ std::vector<ClientLink*> WorldLoop::meet_clients() {
     if (known || link->gone()) continue;
     viewers_.push_back({link, nullptr, link->wants(kWantsPicture)});
     newcomers.push_back(link.get());
-    // Nothing of one that had the same place in memory
+    // Clear data of an earlier client at the same address
     (relayed_ ? relayed_->regions() : light_->regions()).set_surroundings(*link, std::nullopt);
   }
   return newcomers;
 }
 
-/// Sends newcomers the light as it is, also where an update is due: that takes them longer.
+/// Sends newcomers the current light, even if an update is due, which would take longer.
 void WorldLoop::greet(std::span<ClientLink* const> newcomers) {
   if (newcomers.empty() || relayed_) return;
   const auto sent = light_->greet(*served_.field, time_s_, newcomers);
@@ -98,7 +98,7 @@ void WorldLoop::greet(std::span<ClientLink* const> newcomers) {
   }
 }
 
-/// Begins the pictures of who waits for the first light.
+/// Starts the pictures of clients that waited for the first light.
 void WorldLoop::begin_pictures() {
   if (field() == nullptr) return;
   for (Viewer& viewer : viewers_) {
@@ -109,7 +109,7 @@ void WorldLoop::begin_pictures() {
   }
 }
 
-/// Follows where a client of light is that wants less of it far away.
+/// Updates the surroundings of a client that gets light by regions.
 void WorldLoop::follow_interest(Viewer& viewer, const ClientInputs& inputs) {
   if (inputs.camera) viewer.camera = inputs.camera;
   if (inputs.interest) viewer.radius = inputs.interest->radius;
@@ -117,7 +117,7 @@ void WorldLoop::follow_interest(Viewer& viewer, const ClientInputs& inputs) {
   RegionSender& regions = relayed_ ? relayed_->regions() : light_->regions();
   if (viewer.radius <= 0.0f) return regions.set_surroundings(*viewer.link, std::nullopt);
   const Camera camera = viewer.camera ? camera_of(*viewer.camera) : served_.camera;
-  // Pictures are less than twice as wide as high, so that this cone holds their corners
+  // Pictures are less than twice as wide as high, so that this cone contains their corners
   constexpr float kOfHeight = 2.3f;
   Surroundings where;
   where.position_ws = glm::vec3(camera.world_from_view[3]);
@@ -127,7 +127,7 @@ void WorldLoop::follow_interest(Viewer& viewer, const ClientInputs& inputs) {
   regions.set_surroundings(*viewer.link, where);
 }
 
-/// Hands a client's edits to the server that computes the light, and tells which of its inputs
+/// Forwards a client's edits to the server that computes the light, and sets which of its inputs
 /// pictures show.
 void WorldLoop::forward(ClientLink& link, ClientInputs& inputs) {
   const auto shared = link.shared_from_this();
@@ -145,7 +145,8 @@ void WorldLoop::tell_applied(ClientLink& link, const ClientInputs& inputs) {
   link.put_notice(InputsApplied{inputs.last_input, next});
 }
 
-/// Takes what clients sent. Their edits change the world that all see, when its light follows.
+/// Applies the inputs of clients. With `with_edits`, also their edits of the shared world, right
+/// before its update.
 Expected<void> WorldLoop::follow_clients(bool with_edits) {
   std::vector<Edit> edits;
   std::vector<ClientLink*> senders;
@@ -183,7 +184,7 @@ Expected<void> WorldLoop::follow_clients(bool with_edits) {
   return {};
 }
 
-/// Poses the scene as its animations have it now; they begin again when the longest has ended.
+/// Poses the scene at the current time of its animations, which restart when the longest has ended.
 Expected<void> WorldLoop::play() {
   if (!settings_.play) return {};
   const double now_s = std::chrono::duration<double>(Clock::now() - start_).count();
@@ -212,13 +213,13 @@ void WorldLoop::update_light() {
     stats.state = state_.updates;
     stats.update_ms = update_ms;
   });
-  // What was missed is not made up for
+  // Missed updates are skipped
   const auto interval = std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double, std::milli>(interval_ms));
   next_update_ = std::max(next_update_ + interval, Clock::now());
 }
 
-/// Sends what the update made of the light to those who render it themselves.
+/// Sends the updated light to clients of light.
 void WorldLoop::send_light() {
   const std::vector<ClientLink*> clients = light_clients();
   const auto sent = light_->send(*served_.field, time_s_, clients);
@@ -229,7 +230,7 @@ void WorldLoop::send_light() {
   }
 }
 
-/// Takes in the light that has come from its server.
+/// Applies the light that was received from its server.
 Expected<void> WorldLoop::follow_relayed() {
   Stopwatch watch;
   const auto followed = relayed_->follow(light_clients());
@@ -249,7 +250,8 @@ Expected<void> WorldLoop::follow_relayed() {
   return {};
 }
 
-/// One picture for each client that is due and keeps up, until an update is. Whether there was any.
+/// Renders one picture for each client that is due and keeps up, until an update is due. Returns
+/// whether there was any.
 bool WorldLoop::make_pictures() {
   bool any = false;
   for (std::size_t i = 0; i < viewers_.size(); ++i) {
@@ -299,7 +301,7 @@ void WorldLoop::tell_stats(Clock::time_point now) {
   }
 }
 
-/// When there is something to do again, unless a client sends something before.
+/// Time of the next work, unless a client sends something before.
 Clock::time_point WorldLoop::next_work() const {
   Clock::time_point next = Clock::now() + kLongestWait;
   if (!relayed_) next = std::min(next, next_update_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one shared world: its light is updated at a steady rate, edits of clients are applied between
-// updates, and each client is made pictures of its own camera in what time is left.
+// The loop of the shared world: it updates the light at a steady rate, applies edits of clients
+// between updates, and renders pictures for each client's camera in the remaining time.
 #pragma once
 
 #include <functional>
@@ -22,24 +22,25 @@
 namespace lambent::stream {
 
 struct WorldSettings {
-  float rate = 10.0f;  ///< Updates of the light a second, > 0.
-  /// Share of an update's interval that it may take, above 0 to 1; the rest is for pictures.
+  float rate = 10.0f;  ///< Updates of the light per second, > 0.
+  /// Share of an update's interval that the update may take, above 0 to 1; the rest is for
+  /// pictures.
   float update_share = 0.5f;
-  bool play = false;  ///< Play the scene's animations, of which there are some, over and over.
+  bool play = false;  ///< Play the scene's animations in a loop; there must be some.
   PictureSettings pictures;
-  LightEncoderSettings light;  ///< But for the stream, which is drawn anew.
+  LightEncoderSettings light;  ///< The number of the stream is ignored, and chosen at random.
 };
 
-/// What is served. All is kept by somebody else, outlives the loop, and is used by nobody else
-/// while that runs.
+/// The served world. The caller owns all of it; it must outlive the loop, and must not be used by
+/// others while that runs.
 struct ServedWorld {
   Scene& scene;
   World& world;
   IrradianceField& field;
-  Camera camera;  ///< Where clients begin.
+  Camera camera;  ///< Initial camera of clients.
 };
 
-/// The same where another server computes the light.
+/// A world whose light another server computes.
 struct RelayedWorld {
   Scene& scene;  ///< A copy of that server's.
   World& world;
@@ -50,27 +51,27 @@ struct RelayedWorld {
 class WorldLoop {
  public:
   WorldLoop(const ServedWorld& served, const WorldSettings& settings, Hub& hub);
-  /// `log` is told where the light's server goes and comes.
+  /// `log` is called when the connection to the light's server is lost or restored.
   WorldLoop(const RelayedWorld& relayed, const WorldSettings& settings, Hub& hub,
             const std::function<void(const std::string&)>& log);
 
-  /// Runs until `stop` says so, which is asked some ten times a second or more. Fails where the
-  /// world cannot go on. Throws std::bad_alloc where memory runs out.
+  /// Runs until `stop` returns true, which is called at least about ten times a second. Fails where
+  /// the world cannot continue. Throws std::bad_alloc where memory runs out.
   Expected<void> run(const std::function<bool()>& stop);
 
  private:
   struct Viewer {
     std::shared_ptr<ClientLink> link;
-    std::unique_ptr<PictureMaker> pictures;  // null: asked for none, or waits
-    bool waits_for_light = false;            // pictures are made as soon as there is any
-    std::optional<CameraInput> camera{};     // of who gets light by regions
-    float radius = 0.0f;                     // that it cares about [m]; 0: all
-    ClientInputs first_inputs{};             // that came until then
+    std::unique_ptr<PictureMaker> pictures;  // null: none requested, or no light yet
+    bool waits_for_light = false;            // pictures begin with the first light
+    std::optional<CameraInput> camera{};     // of clients that get light by regions
+    float radius = 0.0f;                     // Interest::radius [m]; 0: all
+    ClientInputs first_inputs{};             // inputs received until then
   };
   struct Served {
     Scene& scene;
     World& world;
-    IrradianceField* field;  // null: another server has it
+    IrradianceField* field;  // null: another server computes the light
     Camera camera;
   };
   WorldLoop(const Served& served, const WorldSettings& settings, Hub& hub);
@@ -96,16 +97,16 @@ class WorldLoop {
   WorldSettings settings_;
   Hub& hub_;
   SceneEditor editor_;
-  std::optional<LightSender> light_;  // while it runs, unless it is relayed
+  std::optional<LightSender> light_;  // set while it runs, unless light is relayed
   std::optional<RelayedLight> relayed_;
   Upstream* upstream_ = nullptr;  // null: none
   std::vector<Viewer> viewers_;
-  std::uint64_t met_ = 0;         // Hub::membership of these
-  std::size_t first_viewer_ = 0;  // who is made a picture first: one after the other
+  std::uint64_t met_ = 0;         // Hub::membership of viewers_
+  std::size_t first_viewer_ = 0;  // whose picture is rendered first, in turn
   WorldState state_;
   Clock::time_point start_;
-  float duration_s_ = 0.0f;  // of the longest animation
-  float time_s_ = -1.0f;     // of the animations; below 0: none is played
+  float duration_s_ = 0.0f;  // duration of the longest animation
+  float time_s_ = -1.0f;     // time of the animations; below 0: none is played
   Clock::time_point next_update_, next_stats_;
   std::uint64_t updates_since_stats_ = 0;
 };

@@ -15,10 +15,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A look at what has come to one client takes so long where there is nothing.
+// Wait for messages of one client if there are none.
 constexpr std::chrono::milliseconds kLook{1};
 
-/// The number of an edit; 0: it is none.
+/// The number of an edit; 0: the message is not an edit.
 std::uint32_t edit_number(const Message& message) {
   return std::visit(
       [](const auto& any) -> std::uint32_t {
@@ -64,7 +64,7 @@ class Replay {
     if (!entry.message) {
       const auto one = clients_.find(entry.client);
       if (one == clients_.end()) return {};
-      // What it sent last counts
+      // Wait until its last edit was applied
       const auto settled = settle([&] { return one->second.settled(); });
       if (!settled) return settled;
       one->second.client->close();
@@ -88,7 +88,7 @@ class Replay {
     return {};
   }
 
-  /// Takes and answers what comes until then, or until `done` says so.
+  /// Receives and answers messages until `end`, or until `done` returns true.
   template <class Done>
   Expected<void> wait_until(Clock::time_point end, const Done& done) {
     while (!done()) {
@@ -137,7 +137,7 @@ class Replay {
     return {};
   }
 
-  /// Waits until edits have been applied.
+  /// Waits until `settled` returns true.
   template <class Settled>
   Expected<void> settle(const Settled& settled) {
     const auto waited = wait_until(Clock::now() + settings_.connect.timeout, settled);

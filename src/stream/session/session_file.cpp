@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t kSessionMagic = 0x53424D4Cu;  // "LMBS"
 constexpr std::uint32_t kSessionVersion = 1;
 
-// Sizes [bytes] of what stands at the beginning, and before each message.
+// Sizes of the headers of the file and of each message [bytes].
 constexpr std::size_t kFileHeaderBytes = 8, kEntryHeaderBytes = 16;
 
 void write(std::ofstream& file, std::span<const std::byte> bytes) {
@@ -22,7 +22,7 @@ void write(std::ofstream& file, std::span<const std::byte> bytes) {
   file.flush();
 }
 
-/// A client comes with a hello and goes once.
+/// Whether an entry is consistent: a client begins with a Hello, and leaves once.
 bool follows(std::map<std::uint32_t, bool>& here, const SessionEntry& entry) {
   const bool is_hello = entry.message && std::holds_alternative<Hello>(*entry.message);
   const auto [client, is_new] = here.try_emplace(entry.client, true);

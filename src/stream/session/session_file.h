@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What clients sent to a server, with the times at which it came, in a file: docs/protocol.md.
+// Files with the messages of clients to a server, and the times at which they arrived:
+// docs/protocol.md.
 #pragma once
 
 #include <chrono>
@@ -14,24 +15,24 @@
 
 namespace lambent::stream {
 
-/// Something that a client did.
+/// An action of a client.
 struct SessionEntry {
-  std::chrono::microseconds time{0};  ///< Since the server began to listen; never before the last.
-  std::uint32_t client = 0;           ///< From 1, counted as they came.
-  /// Its first is a Hello without a token; none: the client has gone.
+  std::chrono::microseconds time{0};  ///< Since the server began to listen; in ascending order.
+  std::uint32_t client = 0;           ///< From 1, in the order of connecting.
+  /// The first of each client is a Hello without a token; none: the client has left.
   std::optional<Message> message;
 };
 
-/// Whether a message is kept: all that clients say, but for answers to what the server sends.
+/// Whether a message is recorded: all messages of clients, except answers to those of the server.
 bool belongs_to_session(const Message& message);
 
-/// Writes a session as it goes on. What is written stays readable if the server is killed.
+/// Writes a session while it runs. The file remains readable if the server is killed.
 class SessionWriter {
  public:
-  /// A session has no more bytes than this.
+  /// Largest size of a session.
   static constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30u;
 
-  /// Makes the file, or makes it anew. Fails where that cannot be.
+  /// Creates or replaces the file. Fails where that is not possible.
   static Expected<SessionWriter> create(const std::string& path);
   /// Fails where the disk or the session is full; nothing more is written then.
   Expected<void> add(const SessionEntry& entry);
@@ -45,9 +46,9 @@ class SessionWriter {
   std::uint64_t bytes_ = 0;
 };
 
-/// All entries of a file. One that is cut short at its end is of a server that was killed, and left
-/// out. Fails on files that are missing, of another kind or version, and on entries that no server
-/// wrote.
+/// Reads all entries of a file. A truncated entry at the end, from a server that was killed, is
+/// skipped. Fails on files that are missing or of another kind or version, and on entries that no
+/// server wrote.
 Expected<std::vector<SessionEntry>> read_session(const std::string& path);
 
 }  // namespace lambent::stream

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light through H.265 (10 bits, 4:4:4), without delay. Encoded by libx265 and decoded by
-// libavcodec, which these files alone include. Both exist where LAMBENT_STREAM_H265 is on: x265 is
+// libavcodec, which only these files include. Both are built with LAMBENT_STREAM_H265: x265 is
 // under the GPL, and so is a program that is linked with it.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace lambent::stream {
 
-/// Fails where this was built without H.265, or the codec cannot do it.
+/// Fail where this was built without H.265, or the codec does not support the format.
 Expected<std::unique_ptr<TextureWriter>> make_h265_writer();
 Expected<std::unique_ptr<TextureReader>> make_h265_reader();
 

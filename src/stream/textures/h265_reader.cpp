@@ -32,7 +32,7 @@ class AvReader : public TextureReader {
 
   Expected<void> read(std::span<const std::byte> bytes, bool key,
                       TexturePicture& picture) override {
-    // A key begins anew, whatever came before
+    // A key restarts the decoder
     if (key || context_ == nullptr) {
       if (const auto opened = open(picture); !opened) return opened;
     }
@@ -60,7 +60,7 @@ class AvReader : public TextureReader {
     context_->flags |= AV_CODEC_FLAG_LOW_DELAY;
     context_->err_recognition = AV_EF_EXPLODE;
     context_->thread_count = 1;
-    // What claims to be larger takes no memory; blocks reach over the edge
+    // Larger pictures are refused before memory is allocated; blocks may extend beyond the edge
     constexpr std::int64_t kBlock = 64;
     context_->max_pixels = (picture.width + kBlock) * (picture.height + kBlock);
     if (avcodec_open2(context_, &codec_, nullptr) < 0) {

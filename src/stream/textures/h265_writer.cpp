@@ -11,7 +11,7 @@ namespace lambent::stream {
 namespace {
 
 constexpr int kBits = 10;
-// Of all pictures, as nobody shows them at a rate.
+// Nominal frame rate, since pictures are not displayed.
 constexpr std::uint32_t kRate = 10;
 
 tl::unexpected<Error> failed(const std::string& why) {
@@ -39,10 +39,10 @@ class X265Writer : public TextureWriter {
     in.bitDepth = kBits;
     in.colorSpace = X265_CSP_I444;
     in.sliceType = key ? X265_TYPE_IDR : X265_TYPE_P;
-    in.forceqp = quantiser + 1;  // 0 stands for "as the encoder likes"
+    in.forceqp = quantiser + 1;  // 0 means that the encoder chooses
     in.pts = pictures_;
     for (std::size_t c = 0; c < picture.planes.size(); ++c) {
-      // The codec's interface is older than const
+      // The codec's interface is not const-correct
       in.planes[c] = const_cast<std::uint16_t*>(picture.planes[c].data());
       in.stride[c] = picture.width * static_cast<int>(sizeof(std::uint16_t));
     }
@@ -62,7 +62,7 @@ class X265Writer : public TextureWriter {
   }
 
  private:
-  /// Settings for pictures that nobody looks at: nothing is made to please eyes.
+  /// Opens the encoder. Pictures are not viewed, so all perceptual optimisations are off.
   Expected<void> open(int width, int height) {
     param_ = api_.param_alloc();
     if (param_ == nullptr || api_.param_default_preset(param_, "medium", "zerolatency") < 0) {
@@ -76,7 +76,7 @@ class X265Writer : public TextureWriter {
     param_->fpsNum = kRate;
     param_->fpsDenom = 1;
     param_->totalFrames = 0;
-    param_->keyframeMax = -1;  // keys where they are asked for
+    param_->keyframeMax = -1;  // keys only on request
     param_->bOpenGOP = 0;
     param_->bRepeatHeaders = 1;
     param_->bEmitInfoSEI = 0;
@@ -99,7 +99,7 @@ class X265Writer : public TextureWriter {
     param_->frameNumThreads = 1;
     param_->bEnableWavefront = 0;
     char none[] = "none";
-    param_->numaPools = none;  // the renderer has the other cores
+    param_->numaPools = none;  // leave the other cores to the renderer
     encoder_ = api_.encoder_open(param_);
     param_->numaPools = nullptr;
     if (encoder_ == nullptr) return failed("the encoder refuses pictures of this size");

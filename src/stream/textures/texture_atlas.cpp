@@ -43,7 +43,8 @@ TextureAtlas::TextureAtlas(int probes, int edge, int tiles_in_row)
       height_(whole_blocks((probes + tiles_in_row - 1) / tiles_in_row * edge)) {}
 
 Expected<TextureAtlas> TextureAtlas::of(const FieldGeometry& geometry) {
-  // Whole rows of the first volume side by side, so that neighbours above are neighbours
+  // Put whole rows of the first volume side by side, so that neighbouring probes are also
+  // neighbours vertically
   const int row = geometry.volumes.front().grid.count.x;
   const auto square = static_cast<int>(std::sqrt(static_cast<double>(geometry.probes())));
   const TextureAtlas atlas(geometry.probes(), geometry.irradiance_texels,
@@ -68,7 +69,7 @@ void TextureAtlas::draw(const LightLayout& layout, std::span<const glm::vec4> ti
     plane.resize(static_cast<std::size_t>(width_) * height_);
   }
   const int texels = edge_ * edge_;
-  int lit = -1;  // the last one that is
+  int lit = -1;  // the last lit probe
   for (int probe = 0; probe < probes_; ++probe) {
     if (layout.lit[probe] != 0) lit = probe;
     if (lit < 0) continue;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// All tiles of a field as one picture for a video codec.
+// Packs all tiles of a field into one picture for a video codec.
 //
-// What is coded is sqrt(E), as in LightSignal, over the largest of a stretch of the stream. Red,
-// green and blue of it become their mean and two differences, of which an error counts about the
-// same in each. Majercik et al. send probes as video textures ("The Road to Dynamic Global
-// Illumination", GDC 2019); the domain is that of our own codec, so that errors are of one kind.
+// The coded signal is sqrt(E), as in LightSignal, divided by a scale that is constant over parts of
+// the stream. Red, green and blue are transformed to their mean and two differences, so that equal
+// errors in each have about the same effect. Majercik et al. send probes as video textures ("The
+// Road to Dynamic Global Illumination", GDC 2019); the signal is that of Lambent's own codec, so
+// that errors are comparable.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +19,10 @@
 
 namespace lambent::stream {
 
-/// Where tiles are in the picture: in the order of memory, row after row.
+/// The places of tiles in the picture: in memory order, row after row.
 class TextureAtlas {
  public:
-  // Codecs take no larger pictures, and in whole blocks [pixels].
+  // Limits of codecs: the largest side, and the block of which sides are multiples [pixels].
   static constexpr int kMaxEdge = 8192, kBlock = 8, kLeastEdge = 64;
 
   /// Fails where the picture would be too large.
@@ -30,8 +31,8 @@ class TextureAtlas {
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Draws the tiles of lit probes; others are as the one before. `scale` is at least the root of
-  /// the largest light [(W/m^2)^(1/2)].
+  /// Draws the tiles of lit probes; each other tile is a copy of the one before. `scale` is at
+  /// least the root of the largest light [(W/m^2)^(1/2)].
   void draw(const LightLayout& layout, std::span<const glm::vec4> tiles, float scale,
             TexturePicture& picture) const;
   /// The tiles of a picture of the atlas' size.

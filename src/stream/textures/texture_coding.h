@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light by way of a video codec: bodies of textures, and the state that they lead to.
+// Light through a video codec: bodies of texture messages, and the state that results.
 #pragma once
 
 #include <cstddef>
@@ -14,10 +14,10 @@
 
 namespace lambent::stream {
 
-/// More pictures of one update than this are no encoder's.
+/// Maximum number of pictures in an update.
 inline constexpr int kMaxTexturePictures = 8;
 
-/// A state is in units of so much of a texture's scale: finer than its steps of 1 / 1023.
+/// Units of a state per texture's scale: finer than the picture's steps of 1 / 1023.
 inline constexpr float kTextureUnits = 4096.0f;
 
 /// The pictures of an update, one refining the other.
@@ -26,10 +26,10 @@ struct TextureBody {
   std::vector<std::span<const std::byte>> pictures;
 };
 std::vector<std::byte> write_texture(float scale, std::span<const std::vector<std::byte>> pictures);
-/// Refers to the body. Fails on what no encoder wrote.
+/// Reads a body, to which the result refers. Fails on data that no encoder wrote.
 Expected<TextureBody> read_texture(std::span<const std::byte> body);
 
-/// The state of light that a picture shows, but for its update.
+/// The state of light in a picture, without its update.
 LightState state_of(const TextureAtlas& atlas, const LightLayout& layout, const TileBasis& basis,
                     const TexturePicture& shown, float scale);
 

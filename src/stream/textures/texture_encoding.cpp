@@ -8,27 +8,28 @@
 namespace lambent::stream {
 namespace {
 
-// Light may become so many times brighter (its root by the root) before it needs another scale,
-// and so many times darker.
+// Factors of the scale over the root of the brightest light: kRoom for a new scale, and the ratio
+// of brightest light to scale below which a new one is needed.
 constexpr float kRoom = 1.25f, kTooSmall = 0.4f;
 
-// Errors are to be this share of the target.
+// Errors aim at this share of the target.
 constexpr double kAim = 0.93;
-// Six steps of a quantiser halve what errors there are, in theory; less of what was left out.
+// In theory, six steps of the quantiser halve the error.
 constexpr double kStepsOfHalf = 6.0;
-// Of the way to where errors would be as wanted, an update goes this share.
+// Share of the quantiser's difference from its ideal value by which an update changes it.
 constexpr double kStep = 0.5;
 constexpr double kLeastQuantiser = 0.0, kMostQuantiser = 45.0;
-// A picture that refines the one before is so much more exact, at least.
+// Least decrease of the quantiser for a picture that refines the one before.
 constexpr double kRefine = 3.0;
-// Two fine ones in a row that remove less than this share of the error each show that 10 bits have
-// no more. One does not: errors do not fall evenly with the quantiser.
+// If kMostVain successive pictures with a quantiser up to kFine each remove less than kLeastGain of
+// the error, the limit of 10 bits is reached. A single one does not show this, since errors do not
+// fall evenly with the quantiser.
 constexpr double kFine = 8.0, kLeastGain = 0.02;
 constexpr int kMostVain = 2;
 
 }  // namespace
 
-/// Chooses a scale where the last one no longer fits; whether that is so.
+/// Chooses a new scale if the last one no longer fits; returns whether it did.
 bool TextureEncoding::fit_scale(const FieldLight& light) {
   float most = 0.0f;
   for (const glm::vec4& texel : light.tiles) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoder's side of light by way of a video codec.
+// The encoder's side of light through a video codec.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace lambent::stream {
 
-/// Holds errors below a target by the exactness of pictures, and by pictures that refine those of
-/// the same update.
+/// Keeps errors below a target by adapting the quantiser, and by further pictures that refine the
+/// first one of an update.
 class TextureEncoding {
  public:
   explicit TextureEncoding(std::unique_ptr<TextureWriter> writer) : writer_(std::move(writer)) {}
@@ -21,11 +21,11 @@ class TextureEncoding {
   struct Encoded {
     std::vector<std::byte> body;
     bool is_key = false;
-    LightState light;  ///< That decoders have, but for its update.
+    LightState light;  ///< The decoders' state, without its update.
     LightErrors errors;
   };
-  /// Encodes a field's light. `key`: as one; so it is the first time, for another geometry, and
-  /// where the scale no longer fits.
+  /// Encodes a field's light. `key`: as a key, which also happens the first time, for another
+  /// geometry, and where the scale no longer fits.
   Expected<Encoded> encode(const FieldGeometry& geometry, const LightLayout& layout,
                            const TileBasis& basis, const FieldLight& light, float target, bool key);
 

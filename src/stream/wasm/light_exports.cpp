@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What WebAssembly exports of the light decoder, for web/lambent-three/light_decoder.js. Pointers
-// are into the module's memory, and good until the next message is taken.
+// The WebAssembly exports of the light decoder, for web/lambent-three/light_decoder.js. Pointers
+// are into the module's memory, and valid until the next message is received.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -33,18 +33,19 @@ LAMBENT_EXPORT(lambent_free) void lambent_free(Client* client) {
   delete client;
 }
 
-/// Where a message of so many bytes is to be put.
+/// The buffer for a message of `bytes` bytes.
 LAMBENT_EXPORT(lambent_message) std::byte* lambent_message(Client* client, std::size_t bytes) {
   client->message.resize(bytes);
   return client->message.data();
 }
-/// Takes the message that was put there; 0: it was refused, and lambent_error says why.
+/// Decodes the message in the buffer; returns 0 if it was refused, and lambent_error then has the
+/// reason.
 LAMBENT_EXPORT(lambent_receive) int lambent_receive(Client* client) {
   const auto taken = client->decoder.receive(client->message);
   client->error = taken ? std::string() : taken.error().message();
   return taken ? 1 : 0;
 }
-/// Brings the textures up to date with the message that was taken last.
+/// Updates the textures after the last message.
 LAMBENT_EXPORT(lambent_follow) void lambent_follow(Client* client) {
   client->textures.follow();
 }
@@ -98,7 +99,7 @@ LAMBENT_EXPORT(lambent_places) const void* lambent_places(const Client* client) 
 LAMBENT_EXPORT(lambent_places_count) std::size_t lambent_places_count(const Client* client) {
   return client->textures.places().size();
 }
-/// Of ProbeGrid (src/field/probes/probe_grid.h), 31 words each.
+/// The list of ProbeGrid (src/field/probes/probe_grid.h), 31 words each.
 LAMBENT_EXPORT(lambent_grids) const void* lambent_grids(const Client* client) {
   static_assert(sizeof(ProbeGrid) == 31 * sizeof(std::uint32_t));
   return client->textures.grids().data();
@@ -107,8 +108,8 @@ LAMBENT_EXPORT(lambent_grids_count) std::size_t lambent_grids_count(const Client
   return client->textures.grids().size();
 }
 
-/// Four floats: the way that the sun's light travels at a time of day, and the share of its full
-/// irradiance that it has.
+/// Four floats: the direction of the sun's light at a time of day, and its irradiance as a share of
+/// the full one.
 LAMBENT_EXPORT(lambent_sun) const void* lambent_sun(float hours) {
   static glm::vec4 answer;
   answer = glm::vec4(sun_direction(hours), sun_share(hours));

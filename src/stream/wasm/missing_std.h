@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the standard library of emscripten 3.1 lacks of C++20. Included before everything else.
+// Parts of C++20 that the standard library of emscripten 3.1 lacks. Included before everything
+// else.
 #pragma once
 
 #include <version>

@@ -9,7 +9,8 @@
 namespace lambent {
 namespace {
 
-/// stb_image goes on with zeros where a file ends; the reader remembers that it was asked for more.
+/// stb_image continues with zeros where a file ends; this reader records that it was asked for
+/// more.
 struct Reader {
   ByteView bytes;
   std::size_t position = 0;
@@ -62,8 +63,7 @@ constexpr std::uint8_t kQuantisation = 0xdb;     // DQT
 constexpr std::uint8_t kRestartInterval = 0xdd;  // DRI
 constexpr std::uint8_t kFirstApplication = 0xe0, kLastApplication = 0xef, kComment = 0xfe;
 
-/// A Huffman table's class and number (1 byte), and how many codes it has of each length (16
-/// bytes).
+/// A Huffman table's class and number (1 byte), and its number of codes of each length (16 bytes).
 constexpr std::size_t kTableHeadBytes = 17;
 constexpr std::size_t kMaxHuffmanCodes = 256;
 
@@ -75,8 +75,7 @@ std::size_t length_at(ByteView bytes, std::size_t i) {
   return static_cast<std::size_t>(byte_at(bytes, i)) << 8 | byte_at(bytes, i + 1);
 }
 
-/// Whether every table of the DHT segment whose length field is at `i` has a possible number of
-/// codes.
+/// Whether every table of the DHT segment whose length field is at `i` has a valid number of codes.
 bool huffman_tables_fit(ByteView bytes, std::size_t i) {
   const std::size_t end = std::min(i + length_at(bytes, i), bytes.size());
   for (i += 2; i < end;) {
@@ -99,7 +98,7 @@ bool has_length(std::uint8_t marker) {
 bool is_safe_for_stb(ByteView bytes) {
   if (byte_at(bytes, 0) != kMarkerStart) return true;  // A PNG.
 
-  // Walk the segments before the first scan, so as not to take metadata for tables
+  // Walk the segments before the first scan, so that metadata is not mistaken for tables
   std::size_t i = 2;
   while (i < bytes.size()) {
     while (i < bytes.size() && byte_at(bytes, i) != kMarkerStart) ++i;
@@ -109,7 +108,8 @@ bool is_safe_for_stb(ByteView bytes) {
     if (marker == kHuffmanTables && !huffman_tables_fit(bytes, i + 1)) return false;
     i += 1 + length_at(bytes, i + 1);
   }
-  // From there on a broken scan may end anywhere: whatever looks like tables may be taken for them
+  // From there on, a broken scan may end anywhere, and stb_image may read anything that looks like
+  // tables as such
   for (; i + 1 < bytes.size(); ++i) {
     if (byte_at(bytes, i) != kMarkerStart || byte_at(bytes, i + 1) != kHuffmanTables) continue;
     if (!huffman_tables_fit(bytes, i + 2)) return false;

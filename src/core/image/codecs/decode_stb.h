@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decoding from memory with stb_image, noticing files that end too early.
+// Decoding from memory with stb_image, with detection of truncated files.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace lambent {
 
-/// What an image file says of itself before it is decoded.
+/// The header of an image file.
 struct ImageHeader {
   int width = 0, height = 0;
   int channels = 0;  ///< In the file: 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA.
@@ -18,7 +18,7 @@ struct ImageHeader {
 
 using StbPixels = std::unique_ptr<std::uint8_t, void (*)(void*)>;
 
-/// Whether stb_image may be let loose on a PNG or JPEG at all: version 2.27 (Debian 12) writes
+/// Whether it is safe to decode a PNG or JPEG with stb_image: version 2.27 (Debian 12) writes
 /// beyond its tables where a JPEG declares more than 256 Huffman codes. Call it before any other
 /// function of stb_image.
 bool is_safe_for_stb(ByteView bytes);

@@ -23,9 +23,9 @@
 namespace lambent {
 namespace {
 
-/// No codec of OpenEXR shrinks a picture more than this; a file that claims more is not worth
-/// allocating for. (Deflate reaches 1032:1; DWA on top of it stores one coefficient for 64 pixels
-/// of a flat picture first.)
+/// No codec of OpenEXR compresses a picture by more than this factor; files that claim more are
+/// refused before anything is allocated. (Deflate reaches 1032:1; DWA on top of it stores one
+/// coefficient for 64 pixels of a flat picture first.)
 constexpr std::uint64_t kMaxExrCompression = 1 << 16;
 
 class MemoryInput final : public Imf::IStream {
@@ -49,7 +49,7 @@ class MemoryInput final : public Imf::IStream {
   std::uint64_t position_ = 0;
 };
 
-/// OpenEXR opens its messages with the name of the (here unnamed) file, which our errors hold
+/// OpenEXR begins its messages with the name of the (here unnamed) file, which is in Error::file
 /// already.
 std::string exr_cause(const std::exception& error) {
   std::string cause = error.what();
@@ -64,11 +64,11 @@ struct ChannelGroup {
   std::vector<std::string> channels;
 };
 
-/// Which letters, in which order, make one image when they follow the same layer name.
+/// Channel letters of the same layer that form one image, in this order.
 constexpr std::string_view kComponentSets[] = {"RGBA", "XYZW", "UV"};
 
-/// "direct.R" is component 'R' of the layer "direct"; a channel without a one-letter end has none
-/// (0).
+/// Splits a name: "direct.R" is component 'R' of the layer "direct"; a channel without a one-letter
+/// suffix has no component (0).
 std::pair<std::string, char> split_channel_name(const std::string& name) {
   const std::size_t dot = name.rfind('.');
   const std::string end = dot == std::string::npos ? name : name.substr(dot + 1);
@@ -77,7 +77,7 @@ std::pair<std::string, char> split_channel_name(const std::string& name) {
   return {dot == std::string::npos ? "" : name.substr(0, dot), letter};
 }
 
-/// Moves from `left` the channels that make up one image of `layer`, or one channel on its own.
+/// Removes from `left` the channels that form one image of `layer`, or a single channel.
 ChannelGroup take_group(const std::string& layer, std::vector<std::string>& left) {
   const auto is_component = [](const std::string& name, char letter) {
     return split_channel_name(name).second == letter;
@@ -99,7 +99,8 @@ ChannelGroup take_group(const std::string& layer, std::vector<std::string>& left
   return group;
 }
 
-/// The layers of one part: the whole picture first, then by name, as EXR keeps its channels sorted.
+/// The layers of one part: the unnamed layer first, then by name, since EXR stores its channels
+/// sorted.
 std::vector<ChannelGroup> group_channels(const Imf::ChannelList& list) {
   std::vector<std::pair<std::string, std::vector<std::string>>> by_layer;
   for (auto channel = list.begin(); channel != list.end(); ++channel) {
@@ -114,8 +115,8 @@ std::vector<ChannelGroup> group_channels(const Imf::ChannelList& list) {
   std::vector<ChannelGroup> groups;
   for (auto& [layer, names] : by_layer) {
     groups.push_back(take_group(layer, names));
-    // What does not fit into the layer's colour or vector (say, a root "Z" beside "R", "G", "B")
-    // stands alone.
+    // A channel that does not belong to the layer's colour or vector (such as a root "Z" beside
+    // "R", "G", "B") becomes an image of its own.
     while (!names.empty()) {
       groups.push_back({names.front(), {names.front()}});
       names.erase(names.begin());
@@ -155,7 +156,7 @@ void read_part(Imf::InputPart& part, const std::string& prefix, LayeredImage& re
                    Imf::Slice::Make(Imf::FLOAT, base, window, pixel_bytes, row_bytes));
     }
     layers.push_back(
-        std::move(layer));  // The vector inside, and so the slice's pointer, stays in place.
+        std::move(layer));  // Moving keeps the vector's memory, and so the slice's pointer, valid.
   }
   part.setFrameBuffer(frame);
   part.readPixels(window.min.y, window.max.y);

@@ -21,7 +21,8 @@
 namespace lambent {
 namespace {
 
-/// OpenEXR's way to a file. Its destructor swallows exceptions, so the first failure is kept.
+/// The stream through which OpenEXR writes to a file. OpenEXR's destructor swallows exceptions, so
+/// this stores the first failure.
 class FileOutput final : public Imf::OStream {
  public:
   explicit FileOutput(AtomicFile file)
@@ -99,7 +100,7 @@ struct ExrWriter::State {
         exr(std::in_place, output, header, /*numThreads=*/0),
         height(image_height) {}
 
-  /// What went wrong, in the words of the file where it was the file.
+  /// The error of the file if it failed, otherwise `cause`.
   tl::unexpected<Error> failure(const char* cause) {
     if (output.failure()) return tl::unexpected<Error>(*output.failure());
     return fail(output.file().path(), "", std::string("cannot encode the EXR: ") + cause,
@@ -163,7 +164,7 @@ Expected<void> ExrWriter::write(const LayeredImage& rows) {
 Expected<void> ExrWriter::finish() {
   State& s = *state_;
   assert(s.next_row == s.height);
-  s.exr.reset();  // writes where its scanlines are
+  s.exr.reset();  // its destructor writes the table of scanline offsets
   if (s.output.failure()) return tl::unexpected(*s.output.failure());
   return s.output.file().commit();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One reader per image format, from bytes to images; image_files.cpp picks.
+// One reader per image format, from bytes to images; files.cpp chooses among them.
 #pragma once
 
 #include <cstddef>
@@ -20,12 +20,12 @@ inline constexpr int kMaxImageSide = 1 << 16;
 /// layers.
 inline constexpr std::uint64_t kMaxImageFloats = std::uint64_t{1} << 29;
 
-/// The same of EXR files, which a few bytes cannot make large (16 GiB, a 16k frame of 5 RGB
-/// layers).
+/// The limit of floats for EXR files, of which small ones cannot decode to large images (16 GiB, a
+/// 16k frame of 5 RGB layers).
 inline constexpr std::uint64_t kMaxExrFloats = std::uint64_t{1} << 32;
 
 /// Fails, naming `path`, unless an image of that shape is not empty and its sides are within the
-/// limit: all that is asked of what is written.
+/// limit. This is the only limit for images that are written.
 Expected<void> check_image_sides(const std::string& path, std::int64_t width, std::int64_t height,
                                  std::int64_t channels);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: Ward, "Real Pixels", Graphics Gems II, 1991, and the Radiance file format (.hdr, RGBE).
-// Our own reader, for stb_image's (2.27) never ends on some truncated files.
+// A reader of our own, since that of stb_image (2.27) does not terminate on some truncated files.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -16,12 +16,12 @@ using Rgbe = std::array<std::uint8_t, 4>;
 /// Scanlines outside this range of widths are never run-length encoded in the newer way.
 constexpr int kMinRleWidth = 8;
 constexpr int kMaxRleWidth = 0x7fff;
-/// A count above this is a run of one value, up to it so many literal values.
+/// A count above this starts a run of one value; a count up to it, that many literal values.
 constexpr int kMaxLiteralCount = 128;
 /// Exponent bias of the format (128) plus the 8 bits of the mantissa.
 constexpr int kExponentBias = 128 + 8;
 
-/// Hands out bytes; past the end it hands out nothing, and says so.
+/// Reads bytes one by one; records an attempt to read past the end.
 struct Cursor {
   ByteView bytes;
   std::size_t position = 0;
@@ -74,8 +74,9 @@ Decoded read_rle_scanline(Cursor& cursor, std::vector<Rgbe>& row) {
   return Decoded::ok;
 }
 
-/// Pixel after pixel from the already read `pixel` on, with the oldest kind of runs: (1, 1, 1, n)
-/// repeats the last pixel n times; several in a row are the digits, base 256, of a longer run.
+/// Reads pixel after pixel, beginning with the already read `pixel`, with the oldest kind of runs:
+/// (1, 1, 1, n) repeats the last pixel n times; several in a row are the digits, base 256, of a
+/// longer run.
 Decoded read_flat_scanline(Cursor& cursor, Rgbe pixel, std::vector<Rgbe>& row) {
   std::size_t x = 0;
   int shift = 0;
@@ -133,7 +134,7 @@ Expected<LayeredImage> decode_hdr(const std::string& path, ByteView bytes) {
   if (const char* cause = read_header(cursor, width, height)) return fail(path, "", cause);
   if (const auto ok = check_image_size(path, width, height, 3); !ok)
     return tl::unexpected(ok.error());
-  // A scanline takes four bytes at the least: one pixel, or the head of its runs.
+  // A scanline takes at least four bytes: one pixel, or the header of its runs.
   if (bytes.size() / sizeof(Rgbe) < static_cast<std::size_t>(height)) {
     return fail(path, "", "the file is truncated");
   }

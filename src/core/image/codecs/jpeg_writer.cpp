@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// JPEG, written by rows with libjpeg: kept well for decades (libjpeg-turbo), and fed row by row,
-// which stb_image_write is not.
+// JPEG, written by rows with libjpeg: well maintained for decades (libjpeg-turbo), and it accepts
+// single rows, unlike stb_image_write.
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -20,15 +20,16 @@ namespace lambent {
 namespace {
 
 constexpr int kChannels = 3;
-// Chroma is sampled at every pixel from this quality on: fringes of red and blue edges would show
-// before anything else does.
+// Chroma is sampled at every pixel from this quality on: otherwise fringes of red and blue edges
+// would be the first visible artefact.
 constexpr int kFullColourQuality = 90;
-// What libjpeg hands over at a time [bytes].
+// Size of libjpeg's output buffer [bytes].
 constexpr std::size_t kBufferBytes = 1 << 16;
 
 }  // namespace
 
-/// Errors leave libjpeg by longjmp, past frames of C alone: functions that call it own nothing.
+/// libjpeg reports errors by longjmp, which runs no destructors: functions that call it must own
+/// nothing.
 struct JpegWriter::State {
   State(AtomicFile to, int image_width, int image_height)
       : file(std::move(to)), width(image_width), height(image_height) {

@@ -23,7 +23,8 @@ constexpr int kBitsPerChannel = 8;
 
 }  // namespace
 
-/// Errors leave libpng by longjmp, past frames of C alone: functions that call it own nothing.
+/// libpng reports errors by longjmp, which runs no destructors: functions that call it must own
+/// nothing.
 struct PngWriter::State {
   State(AtomicFile to, int image_width, int image_height, int image_channels)
       : file(std::move(to)), width(image_width), height(image_height), channels(image_channels) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image files that are written some rows at a time, from the top, so that no whole picture need be
-// in memory. The bytes do not depend on how the rows are dealt out. Without finish() there is no
-// file (see AtomicFile).
+// Image files that are written some rows at a time, from the top, so that the whole picture need
+// not be in memory. The bytes do not depend on how the rows are divided into calls. Without
+// finish() there is no file (see AtomicFile).
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace lambent {
 
-/// 32-bit float EXR, as write_exr makes it.
+/// Writes 32-bit float EXR; see write_exr.
 class ExrWriter {
  public:
   /// Begins a file of that height, with the width, layers and channels of `like`.
@@ -19,9 +19,9 @@ class ExrWriter {
   ExrWriter(ExrWriter&&) noexcept;
   ~ExrWriter();
 
-  /// The next rows; of the layers that the file began with, those alone.
+  /// Writes the next rows. Only the layers with which the file was opened are written.
   Expected<void> write(const LayeredImage& rows);
-  /// After the last row.
+  /// Completes the file; call it after the last row.
   Expected<void> finish();
 
  private:
@@ -30,7 +30,7 @@ class ExrWriter {
   std::unique_ptr<State> state_;
 };
 
-/// 8-bit PNG, as write_png makes it.
+/// Writes 8-bit PNG; see write_png.
 class PngWriter {
  public:
   /// Begins a file of that size; 1, 3 or 4 channels.
@@ -38,9 +38,9 @@ class PngWriter {
   PngWriter(PngWriter&&) noexcept;
   ~PngWriter();
 
-  /// The next rows, encoded for display.
+  /// Writes the next rows, encoded for display.
   Expected<void> write(const Image& display_encoded);
-  /// After the last row.
+  /// Completes the file; call it after the last row.
   Expected<void> finish();
 
  private:
@@ -49,7 +49,7 @@ class PngWriter {
   std::unique_ptr<State> state_;
 };
 
-/// 8-bit JPEG, as write_jpeg makes it.
+/// Writes 8-bit JPEG; see write_jpeg.
 class JpegWriter {
  public:
   /// Begins a file of that size.
@@ -58,9 +58,9 @@ class JpegWriter {
   JpegWriter(JpegWriter&&) noexcept;
   ~JpegWriter();
 
-  /// The next rows, encoded for display: 1, 3 or 4 channels.
+  /// Writes the next rows, encoded for display: 1, 3 or 4 channels.
   Expected<void> write(const Image& display_encoded);
-  /// After the last row.
+  /// Completes the file; call it after the last row.
   Expected<void> finish();
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one way in which the library includes stb_image and stb_image_write; stb.cpp holds their
-// code.
+// The only file that includes the declarations of stb_image and stb_image_write; stb.cpp has their
+// definitions.
 #pragma once
 
 #define STBI_ONLY_JPEG

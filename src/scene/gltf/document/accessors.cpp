@@ -13,7 +13,7 @@ namespace {
 // attack.
 constexpr std::size_t kMaxZeroElements = std::size_t{1} << 22;
 
-// Bytes of one element and where its components stand in it.
+// The size of one element and the layout of its components.
 struct Layout {
   int component_type = 0;
   std::size_t component_bytes = 0;
@@ -129,7 +129,7 @@ bool is_index_type(int type) {
          type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
 
-// Elements that stand `stride` bytes apart. Every one of them lies within its buffer view.
+// Elements at distances of `stride` bytes, all within their buffer view.
 struct Strided {
   const std::uint8_t* first = nullptr;
   std::size_t stride = 0;
@@ -146,7 +146,7 @@ Expected<Strided> find_elements(const Document& document, const std::string& pla
     return document.fail_at(place,
                             entry("bufferViews", view) + ".byteStride is smaller than an element");
   }
-  // All comparisons divide instead of multiplying: no count can make them overflow
+  // Divide instead of multiplying, so that no count causes an overflow
   const std::size_t room = offset <= bytes.size() ? bytes.size() - offset : 0;
   const bool fits = room >= element_bytes && count - 1 <= (room - element_bytes) / stride;
   if (!fits) {

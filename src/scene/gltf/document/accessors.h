@@ -20,7 +20,7 @@ struct Elements {
 /// not finite.
 Expected<Elements> read_elements(const Document& document, int accessor);
 
-/// The same from an accessor that must have `components` floats an element.
+/// The elements of an accessor that must have `components` floats per element.
 Expected<Elements> read_elements(const Document& document, int accessor, int components);
 
 /// A list of indices. Fails on types that cannot be indices.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes that URIs and buffer views stand for.
+// Reads the bytes of URIs and buffer views.
 #include <array>
 #include <filesystem>
 #include <string_view>
@@ -53,7 +53,7 @@ int hex_value(char c) {
   return -1;
 }
 
-// RFC 3986, sec. 2.1. What is no escape stays as it is: not every exporter escapes.
+// RFC 3986, sec. 2.1. Invalid escapes remain unchanged, since not every exporter escapes.
 std::string decode_percent(std::string_view text) {
   std::string decoded;
   for (std::size_t i = 0; i < text.size(); ++i) {

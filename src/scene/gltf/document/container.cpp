@@ -81,7 +81,7 @@ Expected<Chunks> split_chunks(ByteSpan bytes, const std::string& file) {
   return chunks;
 }
 
-// Found before parsing, so that no depth of nesting costs stack or memory.
+// Tested before parsing, so that no depth of nesting costs stack or memory.
 bool nested_too_deeply(ByteSpan text) {
   int depth = 0;
   bool in_string = false;
@@ -135,7 +135,8 @@ std::vector<std::string> strings_of(const json& root, const char* key) {
   return strings;
 }
 
-// The constant sky that our own writer leaves in a scene's extras; glTF has no word for it.
+// The constant sky that Lambent's own writer stores in a scene's extras, since glTF has no property
+// for it.
 Expected<glm::vec3> read_sky(const json& sky) {
   if (!sky.is_array() || sky.size() != 3) return fail("", "", "is not a list of three numbers");
   glm::vec3 radiance(0.0f);
@@ -150,7 +151,7 @@ Expected<glm::vec3> read_sky(const json& sky) {
   return radiance;
 }
 
-// Extras may hold anything, so that one which is not what we write is a warning, not an error.
+// Extras may contain anything, so invalid ones cause a warning, not an error.
 void read_skies(Document& document, const json& root) {
   const json scenes = root.value("scenes", json::array());
   for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -167,7 +168,7 @@ void read_skies(Document& document, const json& root) {
   }
 }
 
-// Other "extras" mean nothing to us and may hold anything.
+// Other "extras" have no meaning here and may contain anything.
 void remove_extras(json& value) {
   if (value.is_object()) value.erase("extras");
   if (!value.is_structured()) return;
@@ -196,7 +197,8 @@ Expected<void> read_buffers(Document& document, const json& buffers, const Chunk
     } else if (i == 0 && chunks.has_binary) {
       bytes.assign(chunks.binary.begin(), chunks.binary.end());
     } else if (is_fallback(buffer)) {
-      // Its views are compressed; it stands only for what decompression yields
+      // A fallback buffer, which is empty: its views are compressed, and decompressed into memory
+      // of their own
       document.buffers.emplace_back();
       continue;
     } else {
@@ -222,9 +224,9 @@ void read_image_sources(Document& document, const json& images) {
   }
 }
 
-// Takes out of the JSON what tinygltf would refuse or misread: index accessors without a buffer
+// Removes from the JSON what tinygltf would refuse or misread: index accessors without a buffer
 // view (compressed primitives have none), buffers and images, which it would load without bounds,
-// and animations, for which it would give up the whole file.
+// and animations, errors in which would make it refuse the whole file.
 void take_out(Document& document, json& root) {
   for (json& mesh : root.value("meshes", json::array())) {
     std::vector<int>& indices = document.primitive_indices.emplace_back();
@@ -249,7 +251,8 @@ Expected<void> parse_model(Document& document, const json& root) {
   std::string warning;
   const bool loaded = loader.LoadASCIIFromString(&document.model, &error, &warning, text.data(),
                                                  static_cast<unsigned int>(text.size()), "");
-  // What it calls errors without giving up are optional properties that it takes for required
+  // Errors that it reports without failing are missing optional properties that it considers
+  // required
   if (!loaded) {
     std::replace(error.begin(), error.end(), '\n', ' ');
     return document.fail_at("JSON", error);
@@ -257,7 +260,7 @@ Expected<void> parse_model(Document& document, const json& root) {
   return {};
 }
 
-// tinygltf leaves out what it cannot parse, which would shift indices that were checked before.
+// tinygltf skips objects that it cannot parse, which would shift indices that were checked before.
 bool same_sizes(const Document& document, const json& root) {
   const auto size_of = [&root](const char* key) {
     return root.contains(key) ? root[key].size() : std::size_t{0};
@@ -299,7 +302,7 @@ Expected<Document> read_document(ByteSpan bytes, const std::string& file, bool f
 
   LAMBENT_TRY(chunks, split_chunks(bytes, file));
   LAMBENT_TRY(root, parse_json(chunks.json, file));
-  // An unknown required extension may change everything else: ask for those first
+  // An unknown required extension may change everything else, so check these first
   document.model.extensionsUsed = strings_of(root, "extensionsUsed");
   document.model.extensionsRequired = strings_of(root, "extensionsRequired");
   LAMBENT_CHECK(check_extensions(document));
@@ -321,7 +324,7 @@ Expected<Document> read_document(ByteSpan bytes, const std::string& file, bool f
 }
 
 void Document::warn(std::string sentence) {
-  // Names come from files: nothing in them may reach a terminal as a control sequence
+  // Names come from files: remove control characters, which must not reach a terminal
   constexpr unsigned char kFirstPrintable = 0x20, kDelete = 0x7f;
   for (char& c : sentence) {
     const auto byte = static_cast<unsigned char>(c);

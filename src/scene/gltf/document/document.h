@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A glTF file after its container has been read and its structure checked, before its meaning is
-// taken.
+// A glTF file whose container was read and whose structure was checked, before it is converted to a
+// scene.
 #pragma once
 
 #include <cstddef>
@@ -21,24 +21,24 @@ namespace lambent::gltf {
 using Bytes = std::vector<std::uint8_t>;
 using ByteSpan = std::span<const std::uint8_t>;
 
-/// Where the encoded bytes of an image stand.
+/// The location of an image's encoded bytes.
 struct ImageSource {
   std::string name;
-  std::string uri;       ///< As written in the file; empty: `buffer_view` counts.
+  std::string uri;       ///< As written in the file; empty: use `buffer_view`.
   int buffer_view = -1;  ///< Index into Document::model.bufferViews.
 };
 
-/// Something repaired or left out, many times perhaps, that deserves one warning.
+/// A kind of repair or omission, which may occur many times, for one warning.
 struct Repair {
   std::string what;  ///< "triangles without area were dropped".
   std::size_t count = 0;
-  std::string first;  ///< Where it happened first.
+  std::string first;  ///< Place of the first occurrence.
 };
 
-/// One channel of an animation, as the file has it.
+/// One channel of an animation in the file.
 struct ChannelSource {
   std::string place;          ///< "animations[0].channels[2]".
-  std::string pointer;        ///< What it drives, as a JSON pointer: "/nodes/3/translation".
+  std::string pointer;        ///< The driven property, as a JSON pointer: "/nodes/3/translation".
   int input = 0, output = 0;  ///< Accessors of its times and values.
   Interpolation interpolation = Interpolation::linear;
 };
@@ -47,28 +47,28 @@ struct AnimationSource {
   std::vector<ChannelSource> channels;
 };
 
-/// What the extras of a node say of the instances in it.
+/// Flags in the extras of a node, for its instances.
 struct NodeFlags {
   bool casts_gi = true, receives_gi = true, ignored_by_probes = false;
 };
 
 /// A checked glTF file. Every index in `model` is in range or -1, every array has the length that
-/// the specification asks for, every number is finite and within its range.
+/// the specification requires, every number is finite and within its range.
 struct Document {
   std::string file;         ///< For errors; empty where the file came from memory.
-  std::string folder;       ///< That relative URIs start from.
+  std::string folder;       ///< Base of relative URIs.
   bool file_access = true;  ///< false: URIs other than data URIs are errors.
   tinygltf::Model model;    ///< Without buffers, images, animations, extras.
   std::vector<Bytes> buffers;
   std::vector<glm::vec3> scene_skies;  ///< Constant sky radiance of each scene; black: none.
   std::vector<ImageSource> images;
-  std::vector<AnimationSource> animations;  ///< Without channels that make no sense.
-  std::vector<NodeFlags> node_flags;        ///< One a node.
-  std::map<int, ProbeVolume> node_volumes;  ///< Of nodes that ask for one; not placed yet.
-  std::map<int, FogVolume> node_fog;        ///< Likewise.
+  std::vector<AnimationSource> animations;  ///< Without invalid channels.
+  std::vector<NodeFlags> node_flags;        ///< One per node.
+  std::map<int, ProbeVolume> node_volumes;  ///< Probe volumes by node; not placed yet.
+  std::map<int, FogVolume> node_fog;        ///< Fog by node; not placed yet.
   std::vector<std::vector<int>>
       primitive_indices;                  ///< Accessor of each mesh's primitives' indices; or -1.
-  std::vector<Bytes> decompressed_views;  ///< Of views with EXT_meshopt_compression; else empty.
+  std::vector<Bytes> decompressed_views;  ///< For views with EXT_meshopt_compression; else empty.
   std::vector<std::string> warnings;
   std::vector<Repair> repairs;
 
@@ -79,7 +79,7 @@ struct Document {
   /// Counts `count` repairs of one kind; warn_of_repairs makes one warning of each kind.
   void repaired(const std::string& what, std::size_t count, const std::string& place);
   void warn_of_repairs();
-  /// Counts a channel that is left out, and tells why.
+  /// Counts a dropped channel, with the reason.
   void drop_channel(const std::string& place, const std::string& why) {
     repaired("animation channels were dropped because " + why, 1, place);
   }
@@ -97,11 +97,11 @@ Expected<Document> read_document(ByteSpan bytes, const std::string& file, bool f
 /// document.
 Expected<ByteSpan> view_bytes(const Document& document, int view);
 
-/// What a URI stands for: the bytes of a data URI, or of a file relative to the document's folder.
+/// The bytes of a data URI, or of a file relative to the document's folder.
 Expected<Bytes> read_uri(const Document& document, const std::string& uri,
                          const std::string& place);
 
-/// The file that a relative URI means; empty where it means none, as a data URI does.
+/// The path of the file to which a relative URI refers; empty for others, such as data URIs.
 std::string path_of_uri(const std::string& folder, const std::string& uri);
 
 /// The extension `name` among `extensions`, or null.
@@ -119,7 +119,7 @@ int integer_or(const tinygltf::Value& object, const char* key, int fallback);
   if (!name##_or_error) return tl::unexpected(std::move(name##_or_error).error()); \
   auto& name = *name##_or_error
 
-/// The same for an Expected<void>.
+/// Evaluates an Expected<void>, and leaves the function with its error.
 #define LAMBENT_CHECK(expression)                      \
   if (auto checked = (expression); !checked) {         \
     return tl::unexpected(std::move(checked).error()); \

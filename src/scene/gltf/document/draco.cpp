@@ -10,7 +10,7 @@
 namespace lambent::gltf {
 namespace {
 
-// Largest value of an integer type: what normalised values are divided by.
+// Largest value of an integer type, by which normalised values are divided.
 float largest_of(draco::DataType type) {
   switch (type) {
     case draco::DT_INT8:

@@ -8,9 +8,9 @@
 
 namespace lambent::gltf {
 
-/// What a primitive's compressed stream holds.
+/// The contents of a primitive's compressed stream.
 struct DracoPrimitive {
-  std::vector<std::uint32_t> indices;  ///< Three a triangle.
+  std::vector<std::uint32_t> indices;  ///< Three per triangle.
   std::map<std::string, Elements> attributes;
 };
 

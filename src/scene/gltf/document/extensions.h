@@ -7,11 +7,11 @@
 
 namespace lambent::gltf {
 
-/// What the importer makes of an extension.
+/// The importer's support of an extension.
 struct Extension {
   const char* name;
-  bool required;     ///< May stand in extensionsRequired: the picture is right.
-  const char* note;  ///< What is lost where the file only uses it; null: nothing.
+  bool required;     ///< Supported in extensionsRequired: pictures are correct.
+  const char* note;  ///< What is lost if the extension is used but not required; null: nothing.
 };
 
 /// Every extension that the importer knows, sorted by name.

@@ -8,7 +8,7 @@ namespace lambent::gltf {
 namespace {
 
 // The vertex codec, the densest of the three, spends at least 2 bits on 16 bytes: 64 times smaller.
-// What would have to be denser than twice that is no stream, and nothing is allocated for it.
+// Streams that would have to be more than twice as dense are refused before anything is allocated.
 constexpr std::size_t kMaxExpansion = 128;
 
 struct Stream {

@@ -5,7 +5,7 @@
 
 namespace lambent::gltf {
 
-/// Fills Document::decompressed_views (one entry a buffer view; EXT_meshopt_compression).
+/// Fills Document::decompressed_views (one entry per buffer view; EXT_meshopt_compression).
 Expected<void> decompress_views(Document& document);
 
 }  // namespace lambent::gltf

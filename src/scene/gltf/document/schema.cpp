@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: Khronos Group, glTF 2.0 specification, sec. 5 "Properties Reference", and the README of
-// each extension. One row a property; properties that are not listed are not read.
+// each extension. One row per property; properties that are not listed are not read.
 #include "scene/gltf/document/schema.h"
 
 #include <cmath>
@@ -44,7 +44,7 @@ struct Rule {
 };
 
 constexpr double kAnyInt = 2147483647.0;         // Fits the 32-bit integers of the parsed model.
-constexpr double kAnySize = 9007199254740991.0;  // 2^53 - 1: the largest that JSON keeps exact.
+constexpr double kAnySize = 9007199254740991.0;  // 2^53 - 1: largest exact integer in JSON.
 constexpr double kAnyFloat = 3.0e38;             // Fits a 32-bit float.
 constexpr double kTiny = 1e-30;                  // "Greater than zero".
 constexpr double kQuarterTurn = 1.5707964;  // pi/2 rounded up to what files hold as 32-bit floats.
@@ -233,7 +233,7 @@ constexpr Rule kRules[] = {
     {"spot", "outerConeAngle", Kind::number, "", kTiny, kQuarterTurn},
 };
 
-// A bound as people write it: whole numbers without an exponent.
+// A bound for display: whole numbers without an exponent.
 std::string text_of(double bound) {
   char text[32];
   const bool whole = bound == std::floor(bound) && std::abs(bound) <= kAnySize;

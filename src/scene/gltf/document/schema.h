@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the specification says about the shape of a glTF file's JSON, checked before anything reads
-// it.
+// Checks the structure of a glTF file's JSON against the specification, before anything reads it.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
