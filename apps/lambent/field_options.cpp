@@ -52,7 +52,7 @@ const std::map<std::string, Visibility> kVisibilities = {
 
 /// What a setting of the library is called on the command line. Those that are not here cannot be
 /// reached from there.
-constexpr std::pair<const char*, const char*> kOptionsOfSettings[] = {
+constexpr std::pair<const char*, const char*> kOptionsOfFieldSettings[] = {
     {"rays", "--rays"},
     {"hysteresis", "--hysteresis"},
     {"irradiance texels", "--irradiance-texels"},
@@ -262,7 +262,7 @@ Expected<FieldSettings> field_settings(const FieldOptions& options, const Scene&
 }
 
 Error in_options(Error error, const FieldOptions& options) {
-  for (const auto& [setting, option] : kOptionsOfSettings) {
+  for (const auto& [setting, option] : kOptionsOfFieldSettings) {
     if (error.place != setting) continue;
     error.place = option;
     return error;

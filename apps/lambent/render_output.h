@@ -2,6 +2,7 @@
 // The files that `lambent render` writes.
 #pragma once
 
+#include <cstddef>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -23,6 +24,10 @@ inline constexpr std::size_t kFrameDigits = 4;
 /// Where a frame of a sequence goes: its number, of four digits or more, replaces the #### in the
 /// pattern's file name; where there is none, it stands before the ending.
 std::string frame_path(const std::string& pattern, int frame);
+
+inline std::size_t pixels_of(const glm::ivec2& size) {
+  return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+}
 
 /// Whether a picture is rendered and written some rows at a time, because it has many pixels and
 /// the method can.

@@ -14,7 +14,7 @@ LAMBENT_BEGIN
 const int kTexelsPerWay = 8;
 
 /// Light at a point, and where it comes from.
-struct GatheredLight {
+struct TexelLight {
   vec3 light;  ///< Irradiance [W/m^2].
   vec3 ways;   ///< Ways to the light, summed by the luminance that they bring; of any length.
 };
@@ -39,7 +39,7 @@ LAMBENT_FN TexelSight see_texel(vec3 position_ws, vec3 normal_ws, RsmTexelRecord
 }
 
 /// Adds what a texel brings, whose flux is over pi: bounded_geometry_term.
-LAMBENT_FN void gather_texel(LAMBENT_INOUT(GatheredLight) sum, vec3 normal_ws, TexelSight sight,
+LAMBENT_FN void gather_texel(LAMBENT_INOUT(TexelLight) sum, vec3 normal_ws, TexelSight sight,
                              RsmTexelRecord texel) {
   float compensation = softening_compensation(dot(normal_ws, texel.normal_ws));
   float numerator = sight.above_texel * sight.above_point + texel.softening * compensation;
@@ -47,8 +47,7 @@ LAMBENT_FN void gather_texel(LAMBENT_INOUT(GatheredLight) sum, vec3 normal_ws, T
 }
 
 /// Adds the way to a texel.
-LAMBENT_FN void gather_way(LAMBENT_INOUT(GatheredLight) sum, TexelSight sight,
-                           RsmTexelRecord texel) {
+LAMBENT_FN void gather_way(LAMBENT_INOUT(TexelLight) sum, TexelSight sight, RsmTexelRecord texel) {
   sum.ways += sight.to_texel * (sight.above_texel * sight.inverse * luminance(texel.flux));
 }
 

@@ -38,7 +38,7 @@ constexpr float kTilt = 0.06f;
 // that fills the view, and depth counts no more beyond that.
 constexpr float kClearance = 0.015f, kNear = 0.07f, kDeep = 0.5f;
 // Of the choice of lights.
-constexpr std::uint32_t kSeed = 4;
+constexpr std::uint32_t kLitViewSeed = 4;
 // Sky counts against a view beyond this share.
 constexpr float kMaxSky = 0.1f;
 // What counts of a view: median depth, what many small triangles tell of detail, and how much of it
@@ -93,7 +93,7 @@ std::vector<std::uint8_t> find_lit(const World& world, std::span<const Ray> rays
   std::vector<std::size_t> hit_of_ray;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits[i].missed()) continue;
-    RandomStream random = make_random_stream(static_cast<std::uint32_t>(i), 0, kSeed);
+    RandomStream random = make_random_stream(static_cast<std::uint32_t>(i), 0, kLitViewSeed);
     const float distance = hits[i].distance * (1.0f - kShadowRayShortening);
     const auto ray = ray_to_any_light(world, rays[i].origin + distance * rays[i].direction, random);
     if (!ray) continue;

@@ -14,7 +14,7 @@ namespace {
 // Below the ceiling by this share of the room's height.
 constexpr float kDrop = 0.2f;
 // At least this share of the room's height from every surface: what is nearer glares.
-constexpr float kClearance = 0.14f;
+constexpr float kLampClearance = 0.14f;
 constexpr int kClearanceRays = 24;
 // Places that are tried, and lamps that are hung at most.
 constexpr std::size_t kMaxPlaces = 48;
@@ -42,7 +42,7 @@ std::vector<Place> find_places(const World& world) {
     std::vector<Ray> rays;
     for (int i = 0; i < kClearanceRays; ++i) {
       rays.push_back({at, 0.0f, spherical_fibonacci(static_cast<uint>(i), kClearanceRays),
-                      kClearance * height});
+                      kLampClearance * height});
     }
     const std::vector<std::uint8_t> near = trace_occlusion(world, rays);
     if (std::find(near.begin(), near.end(), 1) != near.end()) continue;

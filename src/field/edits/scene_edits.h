@@ -46,7 +46,7 @@ struct StaleProbes {
 };
 
 /// What a field knows of the edits of its world.
-struct SceneEdits {
+struct FieldEdits {
   PendingEdits pending;
   std::uint64_t applied_revision = 0;  ///< The revision that all but sleeping probes know.
   std::vector<int> stale_sleeping;     ///< Stale sleeping probes, the oldest first.

@@ -17,6 +17,9 @@
 
 namespace lambent {
 
+/// Specialisation constant of src/rsm/shaders/sub_image.glsl.
+inline constexpr std::uint32_t kSubImagesConstant = 0;
+
 /// What the camera sees, as buffers of a device that its owner keeps.
 struct RsmViewOnDevice {
   int width = 0, height = 0;

@@ -13,7 +13,7 @@ struct LitTree {
 };
 
 // What unoccluded_light.inl.h asks for.
-using LightTreeRef = const LitTree&;
+using LitTreeRef = const LitTree&;
 
 uint light_tree_size(const LitTree& of) {
   return static_cast<uint>(of.tree.nodes().size());
