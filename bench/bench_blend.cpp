@@ -11,7 +11,7 @@
 namespace lambent::bench {
 namespace {
 
-constexpr int kRepetitions = 15;
+constexpr int kBlendRepetitions = 15;
 constexpr std::size_t kProbesPerTask = 16;
 
 std::vector<vec3> directions_of(const Workload& work) {
@@ -66,11 +66,11 @@ void blend_distances_of_all_probes(benchmark::State& state) {
 
 BENCHMARK(blend_irradiance)
     ->UseManualTime()
-    ->Iterations(kRepetitions)
+    ->Iterations(kBlendRepetitions)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(blend_distances_of_all_probes)
     ->UseManualTime()
-    ->Iterations(kRepetitions)
+    ->Iterations(kBlendRepetitions)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace lambent::bench {
 namespace {
 
-constexpr int kRepetitions = 5;
+constexpr int kFrameRepetitions = 5;
 
 void frame(benchmark::State& state) {
   const Workload& work = workload();
@@ -33,7 +33,7 @@ void frame(benchmark::State& state) {
   for (const auto& [name, median] : passes) state.counters[name + "_ms"] = median.value();
 }
 
-BENCHMARK(frame)->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);
+BENCHMARK(frame)->UseManualTime()->Iterations(kFrameRepetitions)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace lambent::bench

@@ -12,7 +12,7 @@
 namespace lambent::bench {
 namespace {
 
-constexpr int kRepetitions = 31;
+constexpr int kLookupRepetitions = 31;
 constexpr std::size_t kQueriesPerTask = 4096;
 
 void lookup(benchmark::State& state) {
@@ -37,7 +37,7 @@ void lookup(benchmark::State& state) {
   state.counters["lookups"] = static_cast<double>(queries.size());
 }
 
-BENCHMARK(lookup)->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);
+BENCHMARK(lookup)->UseManualTime()->Iterations(kLookupRepetitions)->Unit(benchmark::kMillisecond);
 
 /// Lookups with hybrid visibility, compared to the plain lookup.
 void lookup_hybrid(benchmark::State& state) {
@@ -76,7 +76,10 @@ void lookup_hybrid(benchmark::State& state) {
       static_cast<double>(rays) / static_cast<double>(queries.size());
 }
 
-BENCHMARK(lookup_hybrid)->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);
+BENCHMARK(lookup_hybrid)
+    ->UseManualTime()
+    ->Iterations(kLookupRepetitions)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace lambent::bench

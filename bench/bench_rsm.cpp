@@ -13,13 +13,7 @@
 namespace lambent::bench {
 namespace {
 
-constexpr int kRepetitions = 7;
-
-RsmSettings with_layout(RsmLayout layout) {
-  RsmSettings settings;
-  settings.layout = layout;
-  return settings;
-}
+constexpr int kRsmRepetitions = 7;
 
 /// Times of one variant; buffers are reused from frame to frame, as in an engine.
 struct Variant {
@@ -100,10 +94,10 @@ void rsm_by_sub_images(benchmark::State& state) {
   measure(state, rsm_workload(), settings);
 }
 
-BENCHMARK(rsm)->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);
+BENCHMARK(rsm)->UseManualTime()->Iterations(kRsmRepetitions)->Unit(benchmark::kMillisecond);
 BENCHMARK(rsm_by_height)
     ->UseManualTime()
-    ->Iterations(kRepetitions)
+    ->Iterations(kRsmRepetitions)
     ->Arg(270)
     ->Arg(540)
     ->Arg(1080)
@@ -111,13 +105,13 @@ BENCHMARK(rsm_by_height)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(rsm_by_texels)
     ->UseManualTime()
-    ->Iterations(kRepetitions)
+    ->Iterations(kRsmRepetitions)
     ->RangeMultiplier(2)
     ->Range(256, 8192)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(rsm_by_sub_images)
     ->UseManualTime()
-    ->Iterations(kRepetitions)
+    ->Iterations(kRsmRepetitions)
     ->Arg(1)
     ->Arg(2)
     ->Arg(4)

@@ -8,7 +8,7 @@
 namespace lambent::bench {
 namespace {
 
-constexpr int kRepetitions = 9;
+constexpr int kShadeRepetitions = 9;
 
 const SolidSides& solid_sides() {
   static const SolidSides sides = solid_sides_by_winding(workload().scene);
@@ -54,8 +54,11 @@ void find_lookups(benchmark::State& state) {
   state.counters["surfels"] = static_cast<double>(traced.hits.size());
 }
 
-BENCHMARK(shade)->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);
-BENCHMARK(find_lookups)->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);
+BENCHMARK(shade)->UseManualTime()->Iterations(kShadeRepetitions)->Unit(benchmark::kMillisecond);
+BENCHMARK(find_lookups)
+    ->UseManualTime()
+    ->Iterations(kShadeRepetitions)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace lambent::bench

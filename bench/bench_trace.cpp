@@ -5,7 +5,7 @@
 namespace lambent::bench {
 namespace {
 
-constexpr int kRepetitions = 9;
+constexpr int kTraceRepetitions = 9;
 
 /// Runs `trace(rays)`, which returns milliseconds, and reports time and speed.
 template <class Trace>
@@ -43,15 +43,15 @@ void trace_primary_rays(benchmark::State& state) {
 
 BENCHMARK(trace_probe_rays)
     ->UseManualTime()
-    ->Iterations(kRepetitions)
+    ->Iterations(kTraceRepetitions)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(trace_shadow_rays)
     ->UseManualTime()
-    ->Iterations(kRepetitions)
+    ->Iterations(kTraceRepetitions)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(trace_primary_rays)
     ->UseManualTime()
-    ->Iterations(kRepetitions)
+    ->Iterations(kTraceRepetitions)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

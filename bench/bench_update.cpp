@@ -6,7 +6,7 @@
 namespace lambent::bench {
 namespace {
 
-constexpr int kRepetitions = 15;
+constexpr int kUpdateRepetitions = 15;
 
 double time_tracing(const Workload& work, const UpdateRays& rays, std::vector<Hit>& hits,
                     std::vector<std::uint8_t>& occluded) {
@@ -56,7 +56,7 @@ void update(benchmark::State& state) {
       static_cast<double>(work.field.store_bytes()) / work.field.probes();
 }
 
-BENCHMARK(update)->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);
+BENCHMARK(update)->UseManualTime()->Iterations(kUpdateRepetitions)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace lambent::bench

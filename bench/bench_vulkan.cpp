@@ -21,7 +21,7 @@
 namespace lambent::bench {
 namespace {
 
-constexpr int kRepetitions = 15;
+constexpr int kVulkanRepetitions = 15;
 constexpr int kRays = 144;
 constexpr glm::ivec3 kProbeCount{16, 16, 16};
 
@@ -214,7 +214,7 @@ void vulkan_lookup_exact(benchmark::State& state) {
 }
 
 void timed(benchmark::internal::Benchmark* bench) {
-  bench->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);
+  bench->UseManualTime()->Iterations(kVulkanRepetitions)->Unit(benchmark::kMillisecond);
 }
 
 BENCHMARK(vulkan_blend_published_tiles)->Apply(timed);

@@ -14,13 +14,14 @@
 namespace lambent::bench {
 namespace {
 
-constexpr int kRepetitions = 7;
+constexpr int kVulkanRsmRepetitions = 7;
 constexpr std::uint32_t kTimedPasses = 8;
 
 /// Times of one variant; its texels are chosen once.
-class Variant {
+class VariantOnDevice {
  public:
-  Variant(const vulkan::Device& device, const RsmWorkload& work, const RsmSettings& settings)
+  VariantOnDevice(const vulkan::Device& device, const RsmWorkload& work,
+                  const RsmSettings& settings)
       : device_(device), settings_(settings), gatherer_(device), timestamps_(device, kTimedPasses) {
     gatherer_.set_lights(choose_lights(work.maps, work.view(), settings), settings);
   }
@@ -53,28 +54,22 @@ class Variant {
   vulkan::Timestamps timestamps_;
 };
 
-RsmSettings with_layout(RsmLayout layout) {
-  RsmSettings settings;
-  settings.layout = layout;
-  return settings;
-}
-
 void vulkan_rsm(benchmark::State& state) {
   const auto device = vulkan::open_device();
   if (!device) return state.SkipWithError(device.error().message().c_str());
   const RsmWorkload& work = rsm_workload();
   const UploadedRsmView view(**device, work.view());
-  Variant plain(**device, work, plain_gather());
-  Variant restructured(**device, work, with_layout(RsmLayout::restructured));
-  Variant full(**device, work, with_layout(RsmLayout::full));
-  const std::array<Variant*, 3> all = {&plain, &restructured, &full};
-  for (Variant* variant : all) {
+  VariantOnDevice plain(**device, work, plain_gather());
+  VariantOnDevice restructured(**device, work, with_layout(RsmLayout::restructured));
+  VariantOnDevice full(**device, work, with_layout(RsmLayout::full));
+  const std::array<VariantOnDevice*, 3> all = {&plain, &restructured, &full};
+  for (VariantOnDevice* variant : all) {
     variant->run(view);
     variant->forget();
   }
   for (auto _ : state) {
     const double ms = time_ms([&] {
-      for (Variant* variant : all) variant->run(view);
+      for (VariantOnDevice* variant : all) variant->run(view);
     });
     state.SetIterationTime(ms * 1e-3);
   }
@@ -88,7 +83,10 @@ void vulkan_rsm(benchmark::State& state) {
   state.counters["full_over_restructured"] = full.gathering() / restructured.gathering();
 }
 
-BENCHMARK(vulkan_rsm)->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);
+BENCHMARK(vulkan_rsm)
+    ->UseManualTime()
+    ->Iterations(kVulkanRsmRepetitions)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace lambent::bench

@@ -20,6 +20,13 @@ struct RsmWorkload {
   std::vector<ReflectiveShadowMap> maps;
 };
 
+/// Settings that are the default but for the layout.
+inline RsmSettings with_layout(RsmLayout layout) {
+  RsmSettings settings;
+  settings.layout = layout;
+  return settings;
+}
+
 /// The workload with 1920 x 1080 pixels, or the size in LAMBENT_BENCH_RSM_SIZE=WxH.
 RsmWorkload& rsm_workload();
 

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # What every target of ours is compiled with.
 
+# With `ALONE` each source is a translation unit, whatever LAMBENT_UNITY says.
 function(lambent_compile_options target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "ALONE" "" "")
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   # The same bits from every compiler and machine: no silent fusing of products and sums.
@@ -14,6 +16,37 @@ function(lambent_compile_options target)
     target_compile_options(${target} PRIVATE -fsanitize=${LAMBENT_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=${LAMBENT_SANITIZE})
   endif()
+  if(LAMBENT_UNITY AND NOT arg_ALONE)
+    # Called when all folders have added their sources
+    cmake_language(EVAL CODE "cmake_language(DEFER DIRECTORY \"${PROJECT_SOURCE_DIR}\" CALL lambent_unite ${target})")
+  endif()
+endfunction()
+
+# Sources of a folder become one translation unit, or several where they are more than this. More would save little
+# parsing, and leave cores without work at the end of a build.
+set(LAMBENT_UNITY_SIZE 16 CACHE STRING "Sources of a translation unit, at most, with LAMBENT_UNITY")
+mark_as_advanced(LAMBENT_UNITY_SIZE)
+
+# lambent_unite(<target> [<source>...]): all of its sources, if none are named. What differs in flags stays alone: CMake
+# leaves out sources with options or definitions of their own.
+function(lambent_unite target)
+  set(sources ${ARGN})
+  if(NOT sources)
+    get_target_property(sources ${target} SOURCES)
+  endif()
+  get_target_property(folder ${target} SOURCE_DIR)
+  foreach(source IN LISTS sources)
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder} NORMALIZE)
+    cmake_path(GET source PARENT_PATH unit)
+    cmake_path(RELATIVE_PATH unit BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
+    string(MAKE_C_IDENTIFIER ${unit} unit)
+    math(EXPR part "0${count_${unit}} / ${LAMBENT_UNITY_SIZE}")
+    math(EXPR count_${unit} "0${count_${unit}} + 1")
+    set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${unit}_${part})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # GCC takes the sources for headers, whose classes must not have members of types without linkage
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
 # Headers that most files of a target include, compiled once, where LAMBENT_PRECOMPILE says so. Builds without show what

@@ -178,7 +178,6 @@ void add_sun(AnimatedScene& made) {
 }
 
 void add_cameras(Scene& scene) {
-  constexpr float kAspect = 16.0f / 9.0f;
   const float kDegree = kPi / 180.0f;
   // Eyes and targets are level, so that verticals stay upright.
   add_camera(scene, "court", {-6.9f, 2.0f, -1.2f}, {7.5f, 2.0f, 1.9f}, 62.0f * kDegree, kAspect);

@@ -12,7 +12,7 @@ namespace {
 using B = MeshBuilder;
 
 constexpr float kThickness = 0.3f;  // of the room's walls [m]
-constexpr glm::vec3 kLamp{12.35f, 2.15f, -0.55f};
+constexpr glm::vec3 kDoorLamp{12.35f, 2.15f, -0.55f};
 constexpr float kLampRadius = 0.15f;
 
 /// The leaf hangs at z = +kDoorHalfWidth on the wall's far side and opens into the room.
@@ -44,16 +44,16 @@ void add_side_room(Scene& scene, const Palette& palette) {
   builder.box({14.01f, 0.6f, -0.94f}, {14.74f, 0.72f, 0.44f});
   add(scene, builder, "side_room_wood", palette.wood);
 
-  builder.faceted_sphere(kLamp, kLampRadius, 20, 10);
+  builder.faceted_sphere(kDoorLamp, kLampRadius, 20, 10);
   add(scene, builder, "lamp", palette.lamp);
-  builder.bar(kLamp + glm::vec3(0.0f, kLampRadius, 0.0f), {kLamp.x, kRoomCeiling, kLamp.z}, 0.012f,
-              6);
+  builder.bar(kDoorLamp + glm::vec3(0.0f, kLampRadius, 0.0f),
+              {kDoorLamp.x, kRoomCeiling, kDoorLamp.z}, 0.012f, 6);
   const std::array<glm::vec2, 3> cap{glm::vec2(0.16f, 0.1f), glm::vec2(0.1f, 0.17f),
                                      glm::vec2(0.0f, 0.2f)};
-  builder.lathe(kLamp, cap, 16);
+  builder.lathe(kDoorLamp, cap, 16);
   const std::array<glm::vec2, 3> lining{glm::vec2(0.0f, 0.19f), glm::vec2(0.09f, 0.16f),
                                         glm::vec2(0.16f, 0.1f)};
-  builder.lathe(kLamp, lining, 16);
+  builder.lathe(kDoorLamp, lining, 16);
   add(scene, builder, "lamp_hanger", palette.iron);
 }
 

@@ -28,7 +28,7 @@ constexpr float kSpotOuterCone = 0.69813170f;             // 40 degrees [rad]
 
 /// The published vertical field of view: a 25 mm film at 35 mm focal length, 2 atan(12.5 / 35)
 /// [rad].
-constexpr float kFieldOfView = 0.686047881f;
+constexpr float kCornellFieldOfView = 0.686047881f;
 
 /// A published point [mm] in units of 100 mm. Divided, not multiplied, so that 552.8 becomes 5.528.
 glm::vec3 mm(float x, float y, float z) {
@@ -46,8 +46,8 @@ Mesh quads(std::initializer_list<Corners> list, const char* name, int material) 
 /// The spheres' reflectance and arrangement: two rows of three, without contact.
 constexpr glm::vec3 kMetal{0.9f, 0.88f, 0.85f};
 constexpr std::array kRoughnesses{0.0f, 0.1f, 0.2f, 0.4f, 0.6f, 0.8f};
-constexpr float kSphereRadius = 75.0f;  // [mm]
-constexpr int kSphereSegments = 96, kSphereSteps = 48;
+constexpr float kCornellSphereRadius = 75.0f;  // [mm]
+constexpr int kCornellSphereSegments = 96, kSphereSteps = 48;
 
 /// The box without its blocks, with this radiance of the lamp.
 Scene make_box(const glm::vec3& lamp_radiance) {
@@ -81,7 +81,7 @@ Scene make_box(const glm::vec3& lamp_radiance) {
   add_object(scene,
              quads({Corners{mm(343, h, 227), mm(343, h, 332), mm(213, h, 332), mm(213, h, 227)}},
                    "light", lamp));
-  add_camera(scene, "cornell", mm(278, 273, -800), mm(278, 273, 0), kFieldOfView, 1.0f);
+  add_camera(scene, "cornell", mm(278, 273, -800), mm(278, 273, 0), kCornellFieldOfView, 1.0f);
   return scene;
 }
 
@@ -116,7 +116,7 @@ void add_sphere(Scene& scene, const glm::vec3& centre, float roughness) {
   metal.metallic = 1.0f;
   metal.roughness = roughness;
   scene.materials.push_back(metal);
-  const float radius = kSphereRadius / 100.0f;
+  const float radius = kCornellSphereRadius / 100.0f;
   std::vector<glm::vec2> profile;
   for (int i = 0; i <= kSphereSteps; ++i) {
     const float angle = kPi * static_cast<float>(i) / kSphereSteps;
@@ -124,7 +124,7 @@ void add_sphere(Scene& scene, const glm::vec3& centre, float roughness) {
     profile.emplace_back(pole ? 0.0f : radius * std::sin(angle), -radius * std::cos(angle));
   }
   MeshBuilder builder;
-  builder.lathe(centre, profile, kSphereSegments);
+  builder.lathe(centre, profile, kCornellSphereSegments);
   add_object(scene, builder.take(metal.name, static_cast<int>(scene.materials.size()) - 1));
 }
 

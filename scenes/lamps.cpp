@@ -14,25 +14,24 @@
 namespace lambent::scenes {
 namespace {
 
-constexpr float kPitch = 2.0f;  // from cable to cable, and from lantern to lantern [m]
-constexpr int kCables = 100;    // across the street
+constexpr float kLanternPitch = 2.0f;  // from cable to cable, and from lantern to lantern [m]
+constexpr int kCables = 100;           // across the street
 constexpr int kLampsOnCable = 10;
 constexpr int kLanternRows = 5;      // on each side, one above the other
 constexpr float kHalfStreet = 6.0f;  // from its middle to the houses [m]
 constexpr float kKerb = 4.0f;        // from its middle to the pavement [m]
 constexpr float kKerbHeight = 0.12f;
-constexpr float kLength = kCables * kPitch;  // [m]
-constexpr float kCableHeight = 6.5f;         // at the houses [m]
-constexpr float kSag = 1.2f;                 // of its middle [m]
-constexpr float kRowHeight = 2.6f;           // of a storey [m]
-constexpr float kLantern = 0.12f;            // radius [m]
-constexpr float kLanternOff = 0.35f;         // from the wall to its middle [m]
+constexpr float kLength = kCables * kLanternPitch;  // [m]
+constexpr float kCableHeight = 6.5f;                // at the houses [m]
+constexpr float kSag = 1.2f;                        // of its middle [m]
+constexpr float kRowHeight = 2.6f;                  // of a storey [m]
+constexpr float kLantern = 0.12f;                   // radius [m]
+constexpr float kLanternOff = 0.35f;                // from the wall to its middle [m]
 // A hundred triangles: ten at either pole, twenty for each of four bands.
 constexpr int kLanternSegments = 10, kLanternRings = 6;
-constexpr float kPoint = 1.2f, kSpot = 5.0f;   // radiant intensity [W/sr]
-constexpr float kSpotAngle = 0.7f;             // outer cone [rad]
-constexpr float kFieldOfView = 1.0471975512f;  // 60 degrees [rad]
-constexpr float kAspect = 16.0f / 9.0f;
+constexpr float kPoint = 1.2f, kSpot = 5.0f;          // radiant intensity [W/sr]
+constexpr float kSpotAngle = 0.7f;                    // outer cone [rad]
+constexpr float kLanternFieldOfView = 1.0471975512f;  // 60 degrees [rad]
 
 /// Houses of random width and height along one side, whose front is at `side * kHalfStreet`.
 void add_houses(Scene& scene, int plaster, float side, RandomStream& random) {
@@ -60,7 +59,7 @@ void add_lanterns(Scene& scene, float side, const int (&meshes)[3]) {
     for (int i = 0; i < kCables; ++i) {
       const glm::vec3 place(side * (kHalfStreet - kLanternOff),
                             2.4f + kRowHeight * static_cast<float>(row),
-                            kPitch * (static_cast<float>(i) + 0.5f));
+                            kLanternPitch * (static_cast<float>(i) + 0.5f));
       glm::mat4 world_from_object(1.0f);
       world_from_object[3] = glm::vec4(place, 1.0f);
       const std::string name = std::string(side > 0.0f ? "lantern_right_" : "lantern_left_") +
@@ -79,7 +78,7 @@ void add_lamps(Scene& scene) {
       Light lamp;
       lamp.name = "lamp_" + std::to_string(cable) + "_" + std::to_string(i);
       lamp.position_ws = {kHalfStreet * (2.0f * s - 1.0f), kCableHeight - sag,
-                          kPitch * (static_cast<float>(cable) + 0.25f)};
+                          kLanternPitch * (static_cast<float>(cable) + 0.25f)};
       if ((cable + i) % 2 == 0) {
         lamp.intensity = kPoint * glm::vec3(1.0f, 0.7f, 0.4f);
       } else {
@@ -115,7 +114,7 @@ AnimatedScene make_lamps() {
   for (int i = 0; i < kCables; ++i) {
     const float x = kKerb + 1.1f * next_uniform(random);
     const float left = next_uniform(random) < 0.5f ? -1.0f : 1.0f;
-    const float z = kPitch * (static_cast<float>(i) + next_uniform(random) * 0.5f);
+    const float z = kLanternPitch * (static_cast<float>(i) + next_uniform(random) * 0.5f);
     const float size = 0.4f + 0.5f * next_uniform(random);
     const float middle = left * x;
     builder.box({middle - 0.5f * size, kKerbHeight, z},
@@ -135,8 +134,10 @@ AnimatedScene make_lamps() {
   add_lanterns(scene, -1.0f, meshes);
   add_lanterns(scene, 1.0f, meshes);
   add_lamps(scene);
-  add_camera(scene, "street", {1.5f, 1.7f, 60.0f}, {-1.0f, 3.2f, 90.0f}, kFieldOfView, kAspect);
-  add_camera(scene, "pavement", {5.3f, 1.5f, 100.2f}, {-6.0f, 1.2f, 106.0f}, kFieldOfView, kAspect);
+  add_camera(scene, "street", {1.5f, 1.7f, 60.0f}, {-1.0f, 3.2f, 90.0f}, kLanternFieldOfView,
+             kAspect);
+  add_camera(scene, "pavement", {5.3f, 1.5f, 100.2f}, {-6.0f, 1.2f, 106.0f}, kLanternFieldOfView,
+             kAspect);
   return {std::move(scene), {}};
 }
 

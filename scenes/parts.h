@@ -19,6 +19,9 @@ int add_object(Scene& scene, Mesh mesh, const glm::mat4& world_from_object = glm
 /// Adds an instance of a mesh that the scene has; returns its index.
 int add_instance(Scene& scene, std::string name, int mesh, const glm::mat4& world_from_object);
 
+/// Width over height of most cameras' pictures.
+inline constexpr float kAspect = 16.0f / 9.0f;
+
 /// Adds a perspective camera with +Y up; `vertical_fov` in radians.
 void add_camera(Scene& scene, std::string name, const glm::vec3& eye, const glm::vec3& target,
                 float vertical_fov, float aspect);

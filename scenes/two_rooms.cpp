@@ -10,12 +10,11 @@ namespace {
 
 constexpr float kHalfLength = 4.025f;     // of both rooms and the partition [m]
 constexpr float kHalfDepth = 2.0f;        // [m]
-constexpr float kHeight = 3.0f;           // [m]
-constexpr float kShell = 0.2f;            // thickness of outer walls, floor and ceiling [m]
+constexpr float kTwoRoomsHeight = 3.0f;   // [m]
+constexpr float kTwoRoomsShell = 0.2f;    // thickness of outer walls, floor and ceiling [m]
 constexpr float kHalfPartition = 0.025f;  // [m]
 constexpr float kGapBegin = 0.8f, kGapEnd = 1.2f, kGapHeight = 2.0f;  // along z, and up [m]
-constexpr float kFieldOfView = 1.0471975512f;                         // 60 degrees [rad]
-constexpr float kAspect = 16.0f / 9.0f;
+constexpr float kTwoRoomsFieldOfView = 1.0471975512f;                 // 60 degrees [rad]
 
 AnimatedScene make_rooms(bool sealed) {
   Scene scene;
@@ -30,10 +29,10 @@ AnimatedScene make_rooms(bool sealed) {
     builder.box(min, max);
     add_object(scene, builder.take(name, material));
   };
-  const float x = kHalfLength, z = kHalfDepth, h = kHeight, p = kHalfPartition;
-  const float outer_x = x + kShell, outer_z = z + kShell;
-  add_box("floor", floor, {-outer_x, -kShell, -outer_z}, {outer_x, 0.0f, outer_z});
-  add_box("ceiling", wall, {-outer_x, h, -outer_z}, {outer_x, h + kShell, outer_z});
+  const float x = kHalfLength, z = kHalfDepth, h = kTwoRoomsHeight, p = kHalfPartition;
+  const float outer_x = x + kTwoRoomsShell, outer_z = z + kTwoRoomsShell;
+  add_box("floor", floor, {-outer_x, -kTwoRoomsShell, -outer_z}, {outer_x, 0.0f, outer_z});
+  add_box("ceiling", wall, {-outer_x, h, -outer_z}, {outer_x, h + kTwoRoomsShell, outer_z});
   add_box("wall_A_end", orange, {-outer_x, 0.0f, -outer_z}, {-x, h, outer_z});
   add_box("wall_B_end", wall, {x, 0.0f, -outer_z}, {outer_x, h, outer_z});
   add_box("wall_back", wall, {-x, 0.0f, -outer_z}, {x, h, -z});
@@ -55,8 +54,10 @@ AnimatedScene make_rooms(bool sealed) {
   lamp.position_ws = {-2.2f, 2.5f, -0.2f};
   scene.lights.push_back(lamp);
 
-  add_camera(scene, "roomB", {3.7f, 1.6f, -1.7f}, {0.4f, 1.1f, 0.9f}, kFieldOfView, kAspect);
-  add_camera(scene, "roomA", {-3.7f, 1.6f, -1.7f}, {-0.4f, 1.1f, 0.9f}, kFieldOfView, kAspect);
+  add_camera(scene, "roomB", {3.7f, 1.6f, -1.7f}, {0.4f, 1.1f, 0.9f}, kTwoRoomsFieldOfView,
+             kAspect);
+  add_camera(scene, "roomA", {-3.7f, 1.6f, -1.7f}, {-0.4f, 1.1f, 0.9f}, kTwoRoomsFieldOfView,
+             kAspect);
   return {std::move(scene), {}};
 }
 

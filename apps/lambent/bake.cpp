@@ -34,7 +34,7 @@
 namespace lambent::cli {
 namespace {
 
-struct Options {
+struct BakeOptions {
   StageOptions stage;
   FieldOptions field;
   std::string output;
@@ -51,7 +51,7 @@ struct Options {
 // Time between two lines of progress where stderr is not a terminal [s].
 constexpr double kSecondsBetweenLines = 10.0;
 
-Expected<void> check(const Options& options) {
+Expected<void> check(const BakeOptions& options) {
   if (const auto fine = check_own_output(options.output, "a field"); !fine) return fine;
   if (!options.stats.empty()) {
     if (const auto fine = check_place(options.stats); !fine) return fine;
@@ -69,7 +69,7 @@ Expected<void> check(const Options& options) {
   return files.check();
 }
 
-void tell_baked(const Options& options, const IrradianceField& field,
+void tell_baked(const BakeOptions& options, const IrradianceField& field,
                 const FieldProgress& reached) {
   const char* how = options.updates > 0 ? "made" : reached.settled ? "settled" : "not settled";
   std::array<char, 128> text;
@@ -88,7 +88,7 @@ struct Baking {
 };
 
 /// Reads the scene, and makes the field to be baked. Every process does so for itself.
-Expected<void> prepare(const Options& options, const Job& job, Baking& baking) {
+Expected<void> prepare(const BakeOptions& options, const Job& job, Baking& baking) {
   // Only the first process writes files
   if (job.leads()) {
     if (const auto fine = check(options); !fine) return fine;
@@ -139,7 +139,7 @@ Expected<void> check_alike(const Job& job, const Baking& baking) {
 
 /// Resumes an interrupted bake, if there is a checkpoint. The first process decides whether there
 /// is one.
-Expected<void> resume(const Options& options, const Job& job, Baking& baking) {
+Expected<void> resume(const BakeOptions& options, const Job& job, Baking& baking) {
   if (options.checkpoint.empty()) return {};
   std::error_code ignored;
   const bool here = job.leads() && std::filesystem::exists(options.checkpoint, ignored);
@@ -163,8 +163,9 @@ Expected<void> resume(const Options& options, const Job& job, Baking& baking) {
 
 /// Returns the function that is called after each update: it writes checkpoints, and without a
 /// terminal, prints lines of progress.
-std::function<void(const FieldProgress&)> between_updates(const Options& options, const Job& job,
-                                                          const Baking& baking, bool tells_lines) {
+std::function<void(const FieldProgress&)> between_updates(const BakeOptions& options,
+                                                          const Job& job, const Baking& baking,
+                                                          bool tells_lines) {
   auto since_checkpoint = std::make_shared<Stopwatch>();
   auto since_line = std::make_shared<Stopwatch>();
   auto seconds = std::make_shared<std::array<double, 2>>();
@@ -196,7 +197,7 @@ std::function<void(const FieldProgress&)> between_updates(const Options& options
 }
 
 /// Writes the baked field and the other requested outputs.
-Expected<void> write(const Options& options, const Job& job, const Baking& baking,
+Expected<void> write(const BakeOptions& options, const Job& job, const Baking& baking,
                      const FieldProgress& reached, const nlohmann::ordered_json& stats) {
   begin_step("writing the field");
   Expected<void> made;
@@ -222,7 +223,7 @@ std::uint64_t peak_memory() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // ru_maxrss is in KiB
 }
 
-Expected<void> bake(const Options& options, const Job& job) {
+Expected<void> bake(const BakeOptions& options, const Job& job) {
   const ThreadLimit limit(options.threads);
   Baking baking;
   if (const auto fine = agree(job, prepare(options, job, baking)); !fine) return fine;
@@ -253,7 +254,7 @@ Expected<void> bake(const Options& options, const Job& job) {
 }  // namespace
 
 void add_bake(CLI::App& app, Run& run) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<BakeOptions>();
   CLI::App* command = app.add_subcommand("bake", "Compute a scene's field, and write it to a file");
   command->group(kFieldGroup);
   command->option_defaults()->group(kMainGroup);

@@ -34,7 +34,7 @@
 namespace lambent::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kConnectExamples =
     "  lambent connect localhost -o picture.png\n"
     "  lambent connect localhost --scene scene.glb -o picture.png   render it here\n"
     "  lambent connect https://light.example.org:8443 --token-file token -o p.png --frames 30\n";
@@ -269,7 +269,7 @@ void add_connect(CLI::App& app, Run& run) {
       ->needs("--scene")
       ->type_name("M");
   add_light_options(*command, o->stage.light);
-  set_examples(*command, kExamples);
+  set_examples(*command, kConnectExamples);
   command->callback([o, &run] { run = [o] { return connect(*o); }; });
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kDistanceFormats[] = {"rg16f", "rg32f"};
+constexpr const char* kDistanceFormatNames[] = {"rg16f", "rg32f"};
 constexpr const char* kIrradianceEnding = ".irradiance.exr";
 constexpr const char* kDistanceEnding = ".distance.exr";
 constexpr std::array kStates = {"off",   "sleeping",       "newly_awake",
@@ -77,7 +77,8 @@ Json json_of(const FieldFile& field) {
         Json::array({array_of(grid.axes[0]), array_of(grid.axes[1]), array_of(grid.axes[2])}));
     json["scroll_volumes"].push_back(volume.role.follows_viewer);
     json["irradiance_formats"].push_back(name_of(volume.irradiance_format));
-    json["distance_formats"].push_back(kDistanceFormats[static_cast<int>(volume.distance_format)]);
+    json["distance_formats"].push_back(
+        kDistanceFormatNames[static_cast<int>(volume.distance_format)]);
     json["irradiance_texels"].push_back(volume.irradiance_texels);
     json["distance_texels"].push_back(volume.distance_texels);
     json["mean_samples"].push_back(summary.samples);
@@ -105,7 +106,7 @@ void print_volume(const FieldVolume& volume) {
               name_of(volume.irradiance_format).c_str(), summary.irradiance.x, summary.irradiance.y,
               summary.irradiance.z);
   std::printf("distances    %d x %d texels, %s\n", volume.distance_texels, volume.distance_texels,
-              kDistanceFormats[static_cast<int>(volume.distance_format)]);
+              kDistanceFormatNames[static_cast<int>(volume.distance_format)]);
   std::printf("samples      %.4g updates a probe on average\n", summary.samples);
   std::printf("states      ");
   const char* separator = " ";

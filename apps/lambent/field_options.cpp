@@ -50,7 +50,7 @@ const std::map<std::string, Visibility> kVisibilities = {
     {"moments", Visibility::moments}, {"hybrid", Visibility::hybrid}, {"exact", Visibility::exact}};
 
 /// The options that correspond to settings of the library. Other settings have no option.
-constexpr std::pair<const char*, const char*> kOptionsOfSettings[] = {
+constexpr std::pair<const char*, const char*> kOptionsOfFieldSettings[] = {
     {"rays", "--rays"},
     {"hysteresis", "--hysteresis"},
     {"irradiance texels", "--irradiance-texels"},
@@ -259,7 +259,7 @@ Expected<FieldSettings> field_settings(const FieldOptions& options, const Scene&
 }
 
 Error in_options(Error error, const FieldOptions& options) {
-  for (const auto& [setting, option] : kOptionsOfSettings) {
+  for (const auto& [setting, option] : kOptionsOfFieldSettings) {
     if (error.place != setting) continue;
     error.place = option;
     return error;

@@ -14,13 +14,13 @@
 namespace lambent::cli {
 namespace {
 
-struct Options {
+struct MakeSceneOptions {
   std::string name;
   std::string output;
   bool sealed = false;
 };
 
-Expected<void> make_scene(const Options& options) {
+Expected<void> make_scene(const MakeSceneOptions& options) {
   const std::string name = options.name + (options.sealed ? "-sealed" : "");
   if (options.sealed && !scenes::is_name(name)) {
     return fail("--sealed", "", "goes with two-rooms alone");
@@ -41,7 +41,7 @@ Expected<void> make_scene(const Options& options) {
 }  // namespace
 
 void add_make_scene(CLI::App& app, Run& run) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MakeSceneOptions>();
   CLI::App* command = app.add_subcommand("make-scene", "Write a built-in scene as a .glb file");
   command->group(kSceneGroup);
   command->add_option("NAME", options->name, "One of: " + list_text(scenes::names()))->required();

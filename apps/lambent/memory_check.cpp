@@ -54,10 +54,6 @@ constexpr std::uint64_t kFixedBytes = std::uint64_t{100} << 20;
 // Least number of rays per probe.
 constexpr std::uint64_t kMinRays = 16;
 
-std::uint64_t pixels_of(const glm::ivec2& size) {
-  return static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
-}
-
 std::uint64_t bytes_a_pixel(const RenderOptions& options) {
   std::uint64_t bytes = kWritingBytes;
   if (options.method == "reference" || options.verify_samples > 0) bytes += kReferenceBytes;

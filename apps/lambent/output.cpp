@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kForeignEndings[] = {".png", ".jpg",  ".jpeg", ".exr",
-                                           ".hdr", ".gltf", ".glb",  ".json"};
+constexpr const char* kEndingsOfOtherFiles[] = {".png", ".jpg",  ".jpeg", ".exr",
+                                                ".hdr", ".gltf", ".glb",  ".json"};
 
 tl::unexpected<Error> cannot_make(const std::string& path, const fs::path& folder,
                                   const std::string& cause) {
@@ -56,7 +56,7 @@ Expected<void> check_output(const std::string& path, std::initializer_list<const
 }
 
 Expected<void> check_own_output(const std::string& path, const std::string& what) {
-  for (const char* ending : kForeignEndings) {
+  for (const char* ending : kEndingsOfOtherFiles) {
     if (has_ending(path, ending)) {
       return fail(path, "",
                   "the output is " + what + ", whose name may not end in " + std::string(ending));

@@ -22,7 +22,7 @@
 namespace lambent::cli {
 namespace {
 
-struct Options {
+struct PictureOptions {
   std::string input;
   std::string output;
   std::string layer;
@@ -30,7 +30,7 @@ struct Options {
   std::string tone_map = "aces";
 };
 
-Expected<void> picture(const Options& options) {
+Expected<void> picture(const PictureOptions& options) {
   if (const Expected<void> fine = check_output(options.output, kPictureEndings); !fine) return fine;
   CommandFiles files;
   files.reads(options.input, "the image");
@@ -62,7 +62,7 @@ Expected<void> picture(const Options& options) {
 }  // namespace
 
 void add_picture(CLI::App& app, Run& run) {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<PictureOptions>();
   CLI::App* command = app.add_subcommand("picture", "Show a layer of an image as a display does");
   command->group(kPictureGroup);
   command->add_option("IMAGE", o->input, "Image: .exr, .hdr, .png or .jpg")->required();

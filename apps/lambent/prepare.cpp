@@ -22,13 +22,13 @@ namespace {
 // Default limit of textures' sizes [texels], which includes all textures.
 constexpr int kAnyTextureSize = 16384;
 
-struct Options {
+struct PrepareOptions {
   StageOptions stage;
   std::string output;
   int texture_size = kAnyTextureSize;
 };
 
-Expected<void> prepare(const Options& options) {
+Expected<void> prepare(const PrepareOptions& options) {
   if (const Expected<void> fine = check_own_output(options.output, "a prepared scene"); !fine)
     return fine;
   CommandFiles files;
@@ -56,7 +56,7 @@ Expected<void> prepare(const Options& options) {
 }  // namespace
 
 void add_prepare(CLI::App& app, Run& run) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PrepareOptions>();
   CLI::App* command =
       app.add_subcommand("prepare", "Write a scene as a file that lambent_gpu_bench reads");
   add_stage_options(*command, options->stage);

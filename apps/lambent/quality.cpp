@@ -11,9 +11,6 @@
 namespace lambent::cli {
 namespace {
 
-// Frames of a sequence over which light is averaged, each with a weight of a tenth.
-constexpr int kAveragedFrames = 10;
-
 const std::map<std::string, Quality> kQualities = {
     {"draft", Quality::draft}, {"interactive", Quality::interactive}, {"high", Quality::high}};
 

@@ -15,6 +15,9 @@ class App;
 
 namespace lambent::cli {
 
+/// Frames of a sequence, or of a server, over which light is averaged: each counts a tenth.
+inline constexpr int kAveragedFrames = 10;
+
 /// Declares --quality, --without and --samples.
 void add_quality_options(CLI::App& command, RenderOptions& options);
 

@@ -27,7 +27,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kExamples =
+constexpr const char* kRenderExamples =
     "  lambent render scene.glb                     write scene.png, with everything chosen\n"
     "  lambent render scene.glb --size 1080p --sun=0.3,-1,0.2 -o pictures/day.jpg\n"
     "  lambent render scene.glb --eye 2,1.7,3 --target 0,1,0 --layers -o layers.exr\n";
@@ -127,7 +127,7 @@ void add_render(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand("render", "Render a picture of a scene, or a sequence");
   add_render_options(*command, *options);
   command->group(kPictureGroup);
-  set_examples(*command, kExamples);
+  set_examples(*command, kRenderExamples);
   command->callback([options, &run] {
     if (options->output.empty()) options->output = picture_beside(options->stage.scene);
     run = [options] { return render(*options); };

@@ -25,10 +25,6 @@ constexpr std::size_t kFilteredBandPixels = std::size_t{1} << 21;
 /// frame); for larger ones, it is found from a small picture of the same view.
 constexpr std::size_t kKeptPixels = std::size_t{1} << 25;
 
-std::size_t pixels_of(const glm::ivec2& size) {
-  return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
-}
-
 std::size_t band_pixels(const RenderOptions& options) {
   return is_filtered(options) ? kFilteredBandPixels : kBandPixels;
 }

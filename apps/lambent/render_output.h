@@ -2,6 +2,7 @@
 // The files that `lambent render` writes.
 #pragma once
 
+#include <cstddef>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -23,6 +24,10 @@ inline constexpr std::size_t kFrameDigits = 4;
 /// The path of a frame of a sequence: its number, with at least four digits, replaces the #### in
 /// the pattern's file name, or is inserted before the ending if there is none.
 std::string frame_path(const std::string& pattern, int frame);
+
+inline std::size_t pixels_of(const glm::ivec2& size) {
+  return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+}
 
 /// Whether a picture is rendered and written some rows at a time, because it has many pixels and
 /// the method supports it.

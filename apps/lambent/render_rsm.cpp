@@ -21,7 +21,7 @@ const std::map<std::string, RsmLayout> kLayouts = {{"restructured", RsmLayout::r
 constexpr double kAnyNumber = std::numeric_limits<float>::max();
 
 /// The options that correspond to settings of the library. plane_tolerance has no option.
-constexpr std::pair<const char*, const char*> kOptionsOfSettings[] = {
+constexpr std::pair<const char*, const char*> kOptionsOfRsmSettings[] = {
     {"resolution", "--rsm-size"},      {"texels", "--rsm-texels"},
     {"sub_maps", "--sub-maps"},        {"sub_images", "--sub-images"},
     {"disk_radius", "--rsm-radius"},   {"softening", "--rsm-softening"},
@@ -30,7 +30,7 @@ constexpr std::pair<const char*, const char*> kOptionsOfSettings[] = {
 
 /// Converts an error of the library to one about the option that the user typed.
 Error in_options(Error error) {
-  for (const auto& [setting, option] : kOptionsOfSettings) {
+  for (const auto& [setting, option] : kOptionsOfRsmSettings) {
     if (error.place != setting) continue;
     error.place = option;
     break;

@@ -33,14 +33,11 @@
 namespace lambent::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kServeExamples =
     "  lambent serve scene.glb                      then open http://localhost:8080/\n"
     "  lambent serve scene.glb --rate 20 --size 480p\n"
     "  lambent serve scene.glb --light-from light.example.org --port 8081\n"
     "  lambent serve scene.glb --host 0.0.0.0 --tokens tokens --certificate c.pem --key k.pem\n";
-
-// Frames over which light is averaged, as in sequences, each with a weight of a tenth.
-constexpr int kAveragedFrames = 10;
 
 /// Settings of pictures, with the largest size.
 FrameSettings frame_settings(const ServeOptions& options) {
@@ -264,7 +261,7 @@ void add_serve(CLI::App& app, Run& run) {
       app.add_subcommand("serve", "Serve a scene to browsers and other clients, live");
   command->group(kStreamGroup);
   add_serve_options(*command, *o);
-  set_examples(*command, kExamples);
+  set_examples(*command, kServeExamples);
   command->callback([o, &run] { run = [o] { return serve(*o); }; });
 }
 

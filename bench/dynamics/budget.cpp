@@ -9,7 +9,7 @@
 namespace lambent::dynamics {
 namespace {
 
-constexpr int kPixels = 64;
+constexpr int kBudgetPixels = 64;
 // Width of the picture for UpdateRequest::seen, whose points are not the measured ones.
 constexpr int kSeenPixels = 37;
 constexpr int kReferenceSamples = 1024;
@@ -37,7 +37,7 @@ void print_curve(const std::string& name) {
   for (int i = 0; i < 16; ++i) full = full_rays(subject);
   for (Light& light : subject.scene.lights) light.intensity *= 3.0f;
   subject.apply_edits();
-  const std::vector<FieldQuery> points = seen_points(subject, kPixels);
+  const std::vector<FieldQuery> points = seen_points(subject, kBudgetPixels);
   const std::vector<double> truth =
       reference_light_at(World(subject.scene), points, kReferenceSamples);
   const std::vector<FieldQuery> seen = seen_points(subject, kSeenPixels);
@@ -83,7 +83,7 @@ std::uint64_t rays_to(std::span<const Mark> marks, double target) {
 
 void compare_adaptive(const std::string& name) {
   Subject subject(name, {});
-  const std::vector<FieldQuery> points = seen_points(subject, kPixels);
+  const std::vector<FieldQuery> points = seen_points(subject, kBudgetPixels);
   const std::vector<double> settled = light_at(subject.settled_field(), points);
   const std::vector<FieldQuery> seen = seen_points(subject, kSeenPixels);
   const double hardest = kTargets.back();
@@ -152,7 +152,7 @@ void measure_moving() {
     }
     const bool first = full == 0;
     if (first) full = probe_rays + shadow_rays;
-    const std::vector<FieldQuery> points = seen_points(atrium, kPixels);
+    const std::vector<FieldQuery> points = seen_points(atrium, kBudgetPixels);
     if (first) settled = light_at(atrium.settled_field(), points);
     const Difference difference = compare(light_at(atrium.field, points), settled);
     const std::string label =

@@ -9,12 +9,12 @@
 namespace lambent::dynamics {
 namespace {
 
-constexpr int kUpdatesBefore = 4;
+constexpr int kUpdatesBeforeCost = 4;
 constexpr int kRepetitions = 15;
 
 void compare_costs(const std::string& name, const std::string& label, FieldSettings settings) {
   Subject subject(name, settings);
-  for (int i = 0; i < kUpdatesBefore; ++i) subject.field.update(subject.world);
+  for (int i = 0; i < kUpdatesBeforeCost; ++i) subject.field.update(subject.world);
   bench::Median full, lights_only;
   for (int i = 0; i < kRepetitions; ++i) {
     Stopwatch watch;

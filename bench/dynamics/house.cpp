@@ -9,7 +9,7 @@
 namespace lambent::dynamics {
 namespace {
 
-constexpr int kUpdatesBefore = 12;
+constexpr int kUpdatesBeforeHouse = 12;
 // The reference: fields that differ only in the lamp, and share all random numbers, so that their
 // difference is the lamp's light and not noise.
 constexpr int kTruthUpdates = 4;
@@ -62,7 +62,7 @@ void measure_house() {
     FieldSettings settings;
     settings.irradiance_format = IrradianceFormat::float32;
     Subject house("house", settings);
-    for (int i = 0; i < kUpdatesBefore; ++i) house.field.update(house.world);
+    for (int i = 0; i < kUpdatesBeforeHouse; ++i) house.field.update(house.world);
     const std::vector<double> true_before = true_light(house);
     const std::vector<double> before = probe_light(house.field);
     house.scene.lights[edit.lamp].intensity *= edit.factor;

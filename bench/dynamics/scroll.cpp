@@ -11,12 +11,12 @@
 namespace lambent::dynamics {
 namespace {
 
-constexpr int kPixels = 64;
-constexpr int kSettledUpdates = 24;
+constexpr int kScrollPixels = 64;
+constexpr int kScrollSettledUpdates = 24;
 constexpr int kStandingFrames = 60;
-constexpr int kFrames = 200;
+constexpr int kScrollFrames = 200;
 constexpr float kStep = 0.023f;  // [m]: 1.4 m/s at 60 Hz
-constexpr std::uint64_t kBudget = 100000, kSettlingBudget = 1000000;
+constexpr std::uint64_t kScrollBudget = 100000, kSettlingBudget = 1000000;
 
 /// Largest relative changes of E at any point in some updates.
 struct Changes {
@@ -41,7 +41,7 @@ class Watched {
  public:
   Watched(const Subject& subject)
       : subject_(subject),
-        points_(seen_points(subject, kPixels)),
+        points_(seen_points(subject, kScrollPixels)),
         light_(light_at(subject.field, points_)) {
     for (const double e : light_) mean_ += e / static_cast<double>(light_.size());
   }
@@ -77,22 +77,22 @@ void walk(const std::string& name, float spacing) {
   const auto update = [&](std::uint64_t budget) {
     return subject.field.update(subject.world, {budget, 0.0, viewer});
   };
-  for (int i = 0; i < kSettledUpdates; ++i) update(0);
-  for (int i = 0; i < kSettledUpdates; ++i) update(kSettlingBudget);
+  for (int i = 0; i < kScrollSettledUpdates; ++i) update(0);
+  for (int i = 0; i < kScrollSettledUpdates; ++i) update(kSettlingBudget);
 
   // In each frame the volumes move first, with a budget that suffices for no probe
   Changes scrolls, moves, traces, standing;
   Watched watched(subject);
-  for (int frame = -kStandingFrames; frame < kFrames; ++frame) {
+  for (int frame = -kStandingFrames; frame < kScrollFrames; ++frame) {
     if (frame < 0) {
-      update(kBudget);
+      update(kScrollBudget);
       standing.add(watched.change(), 0);
       continue;
     }
     viewer += kStep * forward;
     const int recycled = update(1).probes_recycled;
     (recycled > 0 ? scrolls : moves).add(watched.change(), recycled);
-    update(kBudget);
+    update(kScrollBudget);
     traces.add(watched.change(), 0);
   }
   const std::string label = name + ", " + (spacing < 1.0f ? "0.5 m" : "1 m");
@@ -108,7 +108,7 @@ void measure_scroll() {
   std::printf(
       "### A walk of %.1f m at 1.4 m/s and 60 Hz through four cascades of 32x4x32 probes, 100,000 "
       "rays a frame: change of E at any point of the picture, over its mean\n",
-      kFrames * kStep);
+      kScrollFrames * kStep);
   std::printf(
       "| scene, finest spacing | by | updates | probes recycled | largest | largest of an update, "
       "on "

@@ -19,7 +19,7 @@ namespace {
 // Sizes with which a processor takes seconds.
 constexpr int kWidth = 320, kHeight = 180;
 constexpr int kMapResolution = 64;
-constexpr int kProbes = 512, kRays = 64, kUpdates = 4;
+constexpr int kProbes = 512, kResultRays = 64, kUpdates = 4;
 
 constexpr std::uint32_t kMagic = 0x31524C42u;  // "BLR1"
 
@@ -35,7 +35,7 @@ std::vector<Result> find_results(const World& world) {
   const Camera& camera = world.scene().cameras.at(0);
   FieldSettings settings;
   settings.probe_budget = kProbes;
-  settings.rays_per_probe = kRays;
+  settings.rays_per_probe = kResultRays;
   IrradianceField field = IrradianceField::make(settings, open_bounds(world)).value();
   for (int update = 0; update < kUpdates; ++update) field.update(world);
 

@@ -8,10 +8,7 @@ namespace lambent::light_stream {
 namespace {
 
 // States of the atrium's whole day at 8.7 degrees/s.
-constexpr int kStates = 108;
-
-// Approximate number of rays that two cores trace in the time of a state.
-constexpr std::uint64_t kRealTimeRays = 100'000;
+constexpr int kDayStates = 108;
 
 double raw_mbit_s(const IrradianceField& field) {
   return 8e-6 * static_cast<double>(field.store_bytes()) / kInterval;
@@ -20,7 +17,7 @@ double raw_mbit_s(const IrradianceField& field) {
 void print_row(const Motion& motion, std::uint64_t ray_budget,
                const stream::LightEncoderSettings& settings, bool h265 = false) {
   MovingAtrium atrium(motion, ray_budget);
-  const StreamCost cost = stream(atrium, settings, kStates, h265);
+  const StreamCost cost = stream(atrium, settings, kDayStates, h265);
   const double all = cost.light_mbit_s() + cost.geometry_mbit_s();
   std::printf("| %s | %s | %.3f | %.3f | %.2f, %.2f | %.2f | %d | %.0f | %.1f, %.1f | %.3f |\n",
               motion.label.c_str(), ray_budget == 0 ? "no" : "100,000 rays", cost.light_mbit_s(),
@@ -31,7 +28,7 @@ void print_row(const Motion& motion, std::uint64_t ray_budget,
 }
 
 void print_head(const char* what) {
-  std::printf("### %s, atrium, 10 states/s, %d states\n", what, kStates);
+  std::printf("### %s, atrium, 10 states/s, %d states\n", what, kDayStates);
   std::printf(
       "| what moves | budget | light [Mbit/s] | geometry [Mbit/s] | errors [%%] | largest [%%] | "
       "keys after the first | key at the end [kB] | encode, decode [ms of one core] | saved of the "

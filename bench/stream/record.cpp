@@ -9,18 +9,17 @@
 namespace lambent::light_stream {
 
 void record_stream() {
-  constexpr int kStates = 60;
-  constexpr std::uint64_t kRealTimeRays = 100'000;
+  constexpr int kRecordedStates = 60;
   constexpr const char* kFile = "atrium.stream";
   MovingAtrium atrium(fast_sun(), kRealTimeRays);
   stream::LightEncoder encoder = bench::value_or_throw(stream::LightEncoder::create());
   Recording recording;
-  for (int state = 0; state <= kStates; ++state) {
+  for (int state = 0; state <= kRecordedStates; ++state) {
     recording.add(bench::value_or_throw(encoder.encode(atrium.field())));
     atrium.advance();
   }
   recording.write(kFile);
-  std::printf("wrote %s, %d states (node bench/stream/decode.mjs)\n", kFile, kStates);
+  std::printf("wrote %s, %d states (node bench/stream/decode.mjs)\n", kFile, kRecordedStates);
 }
 
 }  // namespace lambent::light_stream

@@ -38,6 +38,9 @@ struct Motion {
   std::function<void(Scene& scene, double time_s)> move;
 };
 
+/// About what two cores trace in the time of a state.
+inline constexpr std::uint64_t kRealTimeRays = 100'000;
+
 /// The motions: the sun at 8.7 degrees per second; the sun at a twentieth of that; the door; one
 /// lamp that brightens and dims with a period of four seconds; nothing.
 Motion fast_sun();

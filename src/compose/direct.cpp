@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <atomic>
 
+#include "compose/frame_tasks.h"
 #include "compose/gbuffer.h"
 #include "core/parallel.h"
 #include "raytracing/direct_light.h"
@@ -11,8 +12,6 @@
 
 namespace lambent {
 namespace {
-
-constexpr std::size_t kPixelsPerTask = 1024;
 
 /// Light that a pixel receives if a shadow ray is unoccluded.
 struct PendingLight {
@@ -90,7 +89,7 @@ std::uint64_t shade_direct(const World& world, const GBuffer& gbuffer,
   const std::size_t first_pixel = static_cast<std::size_t>(band.first_row) * settings.width;
   std::atomic<std::uint64_t> rays = 0;
 
-  parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(gbuffer.size(), kCostlyPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<Ray> shadows;
     std::vector<PendingLight> pending;
     for (std::size_t i = begin; i < end; ++i) {

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <span>
 
+#include "compose/frame_tasks.h"
 #include "compose/pixel_math.h"
 #include "core/parallel.h"
 #include "raytracing/camera_rays.h"
@@ -12,8 +13,6 @@
 
 namespace lambent {
 namespace {
-
-constexpr std::size_t kPixelsPerTask = 4096;
 
 /// Copies a band's values to their place in `all`, or empties that where there are none.
 template <class T>

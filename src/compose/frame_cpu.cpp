@@ -6,6 +6,7 @@
 #include "compose/filter_frame.h"
 #include "compose/fog/fog_frame.h"
 #include "compose/frame_passes.h"
+#include "compose/frame_tasks.h"
 #include "compose/glossy/glossy_frame.h"
 #include "compose/layers.h"
 #include "compose/light_history.h"
@@ -22,7 +23,6 @@
 namespace lambent {
 namespace {
 
-constexpr std::size_t kPixelsPerTask = 4096;
 constexpr std::size_t kFloatsPerTask = std::size_t{1} << 18;  // cleared by a task
 
 /// Irradiance of the field at each pixel, on a surface that faces along normal(pixel). `queries` is

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compose/light_history.h"
 
+#include "compose/frame_tasks.h"
 #include "core/parallel.h"
 #include "denoise/history_math.h"
 #include "raytracing/camera_rays.h"
 
 namespace lambent {
 namespace {
-
-constexpr std::size_t kPixelsPerTask = 4096;
 
 /// The previous frame, as history.inl.h reads it.
 struct FrameOfHistory {

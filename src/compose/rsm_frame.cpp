@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "compose/frame_tasks.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "raytracing/camera_rays.h"
@@ -14,8 +15,6 @@
 
 namespace lambent {
 namespace {
-
-constexpr std::size_t kPixelsPerTask = 4096;
 
 /// Traces the small view through the middle of its pixels.
 void trace_view(const World& world, const Camera& camera, const RsmSettings& rsm, int width,

@@ -35,7 +35,7 @@ struct IrradianceField::State {
   ProbeData data;
   std::vector<ProbeStatus> statuses;
   PlacementState placement;
-  SceneEdits edits;
+  FieldEdits edits;
   Scheduling scheduling;
   int updates = 0;
 

@@ -15,7 +15,7 @@ LAMBENT_BEGIN
 const int kTexelsPerDirection = 8;
 
 /// Light gathered at a point, and its mean direction.
-struct GatheredLight {
+struct TexelLight {
   vec3 light;  ///< Irradiance [W/m^2].
   vec3 ways;   ///< Sum of vectors to texels, weighted by their luminance; of any length.
 };
@@ -40,7 +40,7 @@ LAMBENT_FN TexelSight see_texel(vec3 position_ws, vec3 normal_ws, RsmTexelRecord
 }
 
 /// Adds the light of a texel whose flux is over pi, by bounded_geometry_term().
-LAMBENT_FN void gather_texel(LAMBENT_INOUT(GatheredLight) sum, vec3 normal_ws, TexelSight sight,
+LAMBENT_FN void gather_texel(LAMBENT_INOUT(TexelLight) sum, vec3 normal_ws, TexelSight sight,
                              RsmTexelRecord texel) {
   float compensation = softening_compensation(dot(normal_ws, texel.normal_ws));
   float numerator = sight.above_texel * sight.above_point + texel.softening * compensation;
@@ -48,8 +48,7 @@ LAMBENT_FN void gather_texel(LAMBENT_INOUT(GatheredLight) sum, vec3 normal_ws, T
 }
 
 /// Adds the vector to a texel, weighted by its light.
-LAMBENT_FN void gather_way(LAMBENT_INOUT(GatheredLight) sum, TexelSight sight,
-                           RsmTexelRecord texel) {
+LAMBENT_FN void gather_way(LAMBENT_INOUT(TexelLight) sum, TexelSight sight, RsmTexelRecord texel) {
   sum.ways += sight.to_texel * (sight.above_texel * sight.inverse * luminance(texel.flux));
 }
 

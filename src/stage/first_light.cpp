@@ -31,7 +31,7 @@ constexpr float kMinCourt = 0.05f;
 constexpr float kSkyThroughWindows = 0.5f;
 
 // Number of rays down onto a scene's footprint, along each edge.
-constexpr int kRaysAlongEdge = 16;
+constexpr int kRaysAlongFootprint = 16;
 // A scene has a ground where rays hit something over the first share of its footprint, where at
 // least the second share of these hits is at one height, and at least the third share above it, on
 // things that stand there. One height is a band of this thickness, as a share of the footprint's
@@ -64,10 +64,10 @@ bool has_ground(const World& world, const Bounds& bounds) {
   const glm::vec3 size = bounds.max - bounds.min;
   if (size.y < kFlatShare * std::min(size.x, size.z)) return true;
   std::vector<Ray> rays;
-  for (int i = 0; i < kRaysAlongEdge * kRaysAlongEdge; ++i) {
-    const int column = i % kRaysAlongEdge, row = i / kRaysAlongEdge;
-    const float u = (static_cast<float>(column) + 0.5f) / kRaysAlongEdge;
-    const float v = (static_cast<float>(row) + 0.5f) / kRaysAlongEdge;
+  for (int i = 0; i < kRaysAlongFootprint * kRaysAlongFootprint; ++i) {
+    const int column = i % kRaysAlongFootprint, row = i / kRaysAlongFootprint;
+    const float u = (static_cast<float>(column) + 0.5f) / kRaysAlongFootprint;
+    const float v = (static_cast<float>(row) + 0.5f) / kRaysAlongFootprint;
     rays.push_back({{bounds.min.x + u * size.x, bounds.max.y + size.y, bounds.min.z + v * size.z},
                     0.0f,
                     {0.0f, -1.0f, 0.0f}});
@@ -76,7 +76,7 @@ bool has_ground(const World& world, const Bounds& bounds) {
   for (const Hit& hit : trace(world, rays)) {
     if (!hit.missed()) heights.push_back(bounds.max.y + size.y - hit.distance);
   }
-  constexpr float kRays = kRaysAlongEdge * kRaysAlongEdge;
+  constexpr float kRays = kRaysAlongFootprint * kRaysAlongFootprint;
   if (static_cast<float>(heights.size()) < kMinFootprint * kRays) return false;
   const float width = std::min(size.x, size.z);
   if (width > kMinTerrain && size.y < kTerrainShare * width) return true;

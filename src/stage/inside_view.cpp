@@ -38,7 +38,7 @@ constexpr float kTilt = 0.06f;
 // surface counts as near; and the one beyond which depth counts no more.
 constexpr float kClearance = 0.015f, kNear = 0.07f, kDeep = 0.5f;
 // Seed of the choice of lights.
-constexpr std::uint32_t kSeed = 4;
+constexpr std::uint32_t kLitViewSeed = 4;
 // A larger share of sky than this counts against a view.
 constexpr float kMaxSky = 0.1f;
 // Weights of a view's score: median depth, detail by the number of different triangles, and the
@@ -93,7 +93,7 @@ std::vector<std::uint8_t> find_lit(const World& world, std::span<const Ray> rays
   std::vector<std::size_t> hit_of_ray;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits[i].missed()) continue;
-    RandomStream random = make_random_stream(static_cast<std::uint32_t>(i), 0, kSeed);
+    RandomStream random = make_random_stream(static_cast<std::uint32_t>(i), 0, kLitViewSeed);
     const float distance = hits[i].distance * (1.0f - kShadowRayShortening);
     const auto ray = ray_to_any_light(world, rays[i].origin + distance * rays[i].direction, random);
     if (!ray) continue;

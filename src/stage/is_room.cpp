@@ -23,7 +23,7 @@ constexpr float kMaxShown = 0.6f;
 bool is_room(const World& world, const Subject& subject, const SpaceSurvey& survey) {
   const float needed = glm::mix(kMinEnclosed, kMinEnclosedByTwoSided, survey.two_sided_share);
   if (survey.enclosed_share < needed) return false;
-  const std::vector<SurfacePoint> points =
+  const std::vector<SurfaceSample> points =
       sample_surfaces(world.scene(), subject.instances, kShellPoints);
   if (points.empty()) return false;
 

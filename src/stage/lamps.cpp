@@ -14,7 +14,7 @@ namespace {
 // Distance of a lamp from the ceiling, as a share of the room's height.
 constexpr float kDrop = 0.2f;
 // Least distance from every surface, as a share of the room's height: nearer surfaces would glare.
-constexpr float kClearance = 0.14f;
+constexpr float kLampClearance = 0.14f;
 constexpr int kClearanceRays = 24;
 // Most places that are tried, and most lamps that are hung.
 constexpr std::size_t kMaxPlaces = 48;
@@ -43,7 +43,7 @@ std::vector<Place> find_places(const World& world) {
     std::vector<Ray> rays;
     for (int i = 0; i < kClearanceRays; ++i) {
       rays.push_back({at, 0.0f, spherical_fibonacci(static_cast<uint>(i), kClearanceRays),
-                      kClearance * height});
+                      kLampClearance * height});
     }
     const std::vector<std::uint8_t> near = trace_occlusion(world, rays);
     if (std::find(near.begin(), near.end(), 1) != near.end()) continue;

@@ -13,7 +13,7 @@ namespace lambent {
 namespace {
 
 // Share of the frame's width and height into which the whole object must fit.
-constexpr float kFill = 0.84f;
+constexpr float kFilledShare = 0.84f;
 // Distance of the camera from a scene that is a single point [m].
 constexpr float kDistanceToPoint = 1e-3f;
 
@@ -36,7 +36,7 @@ constexpr std::array kStands = {
     Stand{30, -20, 0.40f}, Stand{150, -20, 0.50f}, Stand{90, 12, 0.20f},  Stand{-90, 12, 0.22f}};
 // Weights of a candidate's score: the share of the surface that it shows, the share of the frame
 // that the subject covers, and the share of that which shows backs.
-constexpr float kSeenWeight = 0.5f, kCoverWeight = 0.5f, kBackWeight = 0.5f;
+constexpr float kSeenWeight = 0.5f, kCoverWeight = 0.5f, kShownBackWeight = 0.5f;
 
 /// Extents of points along a view's axes, widened by perspective. They determine the distance of
 /// the camera.
@@ -60,7 +60,7 @@ struct Framing {
 
 Framing make_framing(const glm::vec3& toward_eye, float vertical_fov, float aspect) {
   const glm::mat3 world_from_view(look_at(toward_eye, glm::vec3(0.0f), 1.0f).world_from_view);
-  const float tan_y = kFill * std::tan(0.5f * vertical_fov);
+  const float tan_y = kFilledShare * std::tan(0.5f * vertical_fov);
   return {glm::transpose(world_from_view), tan_y * aspect, tan_y};
 }
 
@@ -90,10 +90,10 @@ Camera fit(const Framing& framing, const Extents& extents, const glm::vec3& cent
 }
 
 /// Fits a sample of points, which is fast and may cut off a corner.
-Camera fit_points(const Framing& framing, const std::vector<SurfacePoint>& points,
+Camera fit_points(const Framing& framing, const std::vector<SurfaceSample>& points,
                   const glm::vec3& center, float vertical_fov) {
   Extents extents;
-  for (const SurfacePoint& point : points) add_point(framing, point.position_ws - center, extents);
+  for (const SurfaceSample& point : points) add_point(framing, point.position_ws - center, extents);
   return fit(framing, extents, center, vertical_fov);
 }
 
@@ -122,11 +122,11 @@ struct Judgement {
   float back = 0.0f;   ///< Share of that which shows backs of surfaces.
 };
 
-Judgement judge(const World& world, const Camera& camera, const std::vector<SurfacePoint>& points,
+Judgement judge(const World& world, const Camera& camera, const std::vector<SurfaceSample>& points,
                 float aspect) {
   const glm::vec3 eye(camera.world_from_view[3]);
   std::vector<Ray> rays;
-  for (const SurfacePoint& point : points) {
+  for (const SurfaceSample& point : points) {
     const glm::vec3 offset = eye - point.position_ws;
     const float distance = glm::length(offset);
     if (!(distance > 0.0f)) continue;
@@ -173,7 +173,8 @@ Camera outside_view(const World& world, const Subject& subject, float vertical_f
   }
 
   // Judge all candidates, each relative to the best of them
-  const std::vector<SurfacePoint> points = sample_surfaces(scene, subject.instances, kJudgedPoints);
+  const std::vector<SurfaceSample> points =
+      sample_surfaces(scene, subject.instances, kJudgedPoints);
   std::array<Judgement, kStands.size()> judgements;
   float most_seen = 0.0f, most_cover = 0.0f;
   for (std::size_t i = 0; i < kStands.size(); ++i) {
@@ -190,7 +191,7 @@ Camera outside_view(const World& world, const Subject& subject, float vertical_f
     const float seen = most_seen > 0.0f ? judgements[i].seen / most_seen : 0.0f;
     const float cover = most_cover > 0.0f ? judgements[i].cover / most_cover : 0.0f;
     const float score = kSeenWeight * seen + kCoverWeight * cover -
-                        kBackWeight * judgements[i].back - kStands[i].handicap;
+                        kShownBackWeight * judgements[i].back - kStands[i].handicap;
     if (score <= best_score) continue;
     best_score = score;
     best = i;

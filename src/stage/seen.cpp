@@ -26,7 +26,7 @@ constexpr float kLitShare = 1.0f / 32.0f;
 // Number of directions around the camera.
 constexpr int kSphereRays = 64;
 // Seed of all random numbers in this file.
-constexpr std::uint32_t kSeed = 3;
+constexpr std::uint32_t kLightSeed = 3;
 
 LitPoint lit_point(const Surface& surface) {
   return {surface.position_ws, surface.geometric_normal_ws, surface.geometric_normal_ws};
@@ -123,7 +123,7 @@ ViewLight measure_view_light(const World& world, const SeenView& view) {
   std::vector<int> escaped(count, 0);
   parallel_chunks(count, 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      RandomStream random = make_random_stream(static_cast<std::uint32_t>(i), 0, kSeed);
+      RandomStream random = make_random_stream(static_cast<std::uint32_t>(i), 0, kLightSeed);
       irradiances[i] = irradiance_of(world, view.points[i].point, random, escaped[i]);
     }
   });

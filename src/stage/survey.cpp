@@ -25,7 +25,7 @@ constexpr std::uint32_t kSpaceSeed = 2;
 // encloses the rest, where it spans less than this share. Rooms seldom do.
 constexpr float kDwarfedByGround = 0.3f, kDwarfedBySky = 0.1f;
 // Greatest height of a ground, as a share of its width.
-constexpr float kFlatShare = 0.05f;
+constexpr float kFlatGroundShare = 0.05f;
 
 // Number of places that are tested in a box.
 constexpr int kPlaces = 448;
@@ -82,7 +82,7 @@ std::size_t count_dwarfing(std::span<const Bounds> boxes, std::span<const std::u
     const Bounds& rest = around[left - 1];
     const Bounds& largest = boxes[order[left]];
     const glm::vec3 size = largest.max - largest.min;
-    const bool flat = size.y <= kFlatShare * std::max(size.x, size.z);
+    const bool flat = size.y <= kFlatGroundShare * std::max(size.x, size.z);
     const bool encloses = glm::all(glm::lessThanEqual(largest.min, rest.min)) &&
                           glm::all(glm::greaterThanEqual(largest.max, rest.max));
     if (!flat && !encloses) return 0;
@@ -125,8 +125,8 @@ std::vector<std::uint8_t> trace_occlusion(const World& world, std::span<const Ra
   return occluded;
 }
 
-std::vector<SurfacePoint> sample_surfaces(const Scene& scene,
-                                          std::span<const std::uint32_t> instances, int count) {
+std::vector<SurfaceSample> sample_surfaces(const Scene& scene,
+                                           std::span<const std::uint32_t> instances, int count) {
   // Sum up areas over the triangles of each mesh, and over instances
   std::vector<std::vector<float>> areas(scene.meshes.size());
   std::vector<std::uint32_t> with_area;
@@ -142,7 +142,7 @@ std::vector<SurfacePoint> sample_surfaces(const Scene& scene,
     with_area.push_back(i);
     instance_sums.push_back(sum);
   }
-  std::vector<SurfacePoint> points;
+  std::vector<SurfaceSample> points;
   if (with_area.empty()) return points;
 
   points.reserve(count);

@@ -13,7 +13,7 @@
 namespace lambent {
 
 /// A point on the scene's surfaces.
-struct SurfacePoint {
+struct SurfaceSample {
   glm::vec3 position_ws{0.0f};            ///< [m]
   glm::vec3 normal_ws{0.0f, 1.0f, 0.0f};  ///< Normal of the triangle, on its front side; unit.
   std::uint32_t instance = 0;             ///< Index into Scene::instances.
@@ -22,8 +22,8 @@ struct SurfacePoint {
 /// `count` points on the instances whose index is in `instances`: half of them spread over area,
 /// half dealt equally to instances, so that small parts count. Fewer, or none, where there is no
 /// area.
-std::vector<SurfacePoint> sample_surfaces(const Scene& scene,
-                                          std::span<const std::uint32_t> instances, int count);
+std::vector<SurfaceSample> sample_surfaces(const Scene& scene,
+                                           std::span<const std::uint32_t> instances, int count);
 
 /// The nearest hit of each ray. Uses all cores.
 std::vector<Hit> trace(const World& world, std::span<const Ray> rays);

@@ -137,8 +137,9 @@ void Recorder::copy(const Buffer& from, const Buffer& to, std::size_t bytes,
 
 void Recorder::fill(const Buffer& buffer, std::uint32_t word, std::size_t offset,
                     std::size_t bytes) {
-  constexpr std::size_t kWord = 4;
-  const std::size_t size = bytes == 0 ? (buffer.bytes() - offset) / kWord * kWord : bytes;
+  constexpr std::size_t kFilledWord = 4;
+  const std::size_t size =
+      bytes == 0 ? (buffer.bytes() - offset) / kFilledWord * kFilledWord : bytes;
   if (size == 0) return;
   device_.fn().vkCmdFillBuffer(commands_, buffer.handle(), buffer.offset() + offset, size, word);
 }

@@ -40,9 +40,9 @@ struct Type {
   std::vector<std::uint32_t> operands;
 };
 
-class Module {
+class ReflectedModule {
  public:
-  explicit Module(Spirv words) {
+  explicit ReflectedModule(Spirv words) {
     if (words.size() < kHeaderWords || words[0] != kMagic) {
       throw std::runtime_error("a shader is not SPIR-V");
     }
@@ -160,7 +160,7 @@ class Module {
 }  // namespace
 
 Reflection reflect(Spirv spirv) {
-  return Module(spirv).result();
+  return ReflectedModule(spirv).result();
 }
 
 }  // namespace lambent::vulkan

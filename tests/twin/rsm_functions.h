@@ -122,7 +122,7 @@ LAMBENT_FN void call_gather(LAMBENT_INOUT(RsmResultCursor) to, RsmInputs a) {
   tell(to, softening_compensation(2.0f * a.number - 1.0f));
   tell(to, bounded_geometry_term(a.position_ws, a.normal_ws, a.texel.position_ws, a.texel.normal_ws,
                                  a.texel.softening));
-  GatheredLight sum = {vec3(0.0f), vec3(0.0f)};
+  TexelLight sum = {vec3(0.0f), vec3(0.0f)};
   TexelSight sight = see_texel(a.position_ws, a.normal_ws, a.texel);
   gather_texel(sum, a.normal_ws, sight, a.texel);
   gather_way(sum, sight, a.texel);

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <limits>
 
-#include "gltf_builder.h"
 #include "lambent/world.h"
 #include "scenes/builtin.h"
 #include "scenes/glb_writer.h"
 #include "scenes/recipes.h"
+#include "unit/gltf_checks.h"
 
 namespace lambent {
 namespace {
@@ -18,6 +18,7 @@ namespace {
 using test::error_of;
 using test::GltfBuilder;
 using test::Json;
+using test::loaded;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -44,12 +45,6 @@ Json pointer_target(const char* pointer) {
   Json target = {{"path", "pointer"}};
   target["extensions"]["KHR_animation_pointer"]["pointer"] = pointer;
   return target;
-}
-
-Scene loaded(const GltfBuilder& builder) {
-  Expected<Scene> scene = builder.load();
-  if (!scene) throw std::runtime_error(error_of(scene));
-  return std::move(*scene);
 }
 
 TEST(GltfAnimation, MovesANodeAndWhatHangsFromIt) {

@@ -5,24 +5,19 @@
 #include <cmath>
 
 #include "scene/limits.h"
-#include "unit/gltf_builder.h"
+#include "unit/gltf_checks.h"
 
 namespace lambent {
 namespace {
 
 using test::error_of;
+using test::expect_near;
 using test::GltfBuilder;
 using test::Json;
+using test::kHalf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::SizeIs;
-
-const float kHalf = std::sqrt(0.5f);
-
-void expect_near(const glm::vec3& actual, const glm::vec3& expected) {
-  EXPECT_LT(glm::length(actual - expected), 1e-5f)
-      << actual.x << " " << actual.y << " " << actual.z;
-}
 
 // One light, turned so that its -z points along +x, and moved.
 Expected<Scene> with_light(const Json& light) {

@@ -8,25 +8,20 @@
 #include "raytracing/raytracer.h"
 #include "raytracing/surface.h"
 #include "raytracing/world_access.h"
-#include "unit/gltf_builder.h"
+#include "unit/gltf_checks.h"
 
 namespace lambent {
 namespace {
 
 using test::error_of;
+using test::expect_near;
 using test::GltfBuilder;
 using test::Json;
+using test::kHalf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
-
-const float kHalf = std::sqrt(0.5f);
-
-void expect_near(const glm::vec3& actual, const glm::vec3& expected) {
-  EXPECT_LT(glm::length(actual - expected), 1e-5f)
-      << actual.x << " " << actual.y << " " << actual.z;
-}
 
 glm::vec3 place(const Instance& instance, const glm::vec3& position) {
   return glm::vec3(instance.world_from_object * glm::vec4(position, 1.0f));

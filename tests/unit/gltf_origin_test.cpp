@@ -11,7 +11,7 @@
 #include "lambent/world.h"
 #include "scenes/builtin.h"
 #include "scenes/glb_writer.h"
-#include "unit/gltf_builder.h"
+#include "unit/gltf_checks.h"
 
 namespace lambent {
 namespace {
@@ -19,18 +19,13 @@ namespace {
 using test::error_of;
 using test::GltfBuilder;
 using test::Json;
+using test::loaded;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
 // Far away, and not a round number in binary nor in decimal.
 const glm::dvec3 kFar(123456.7, 12.3, -98765.4);
-
-Scene loaded(const GltfBuilder& builder) {
-  Expected<Scene> scene = builder.load();
-  if (!scene) throw std::runtime_error(error_of(scene));
-  return std::move(*scene);
-}
 
 Json list_of(const glm::dvec3& v) {
   return {v.x, v.y, v.z};

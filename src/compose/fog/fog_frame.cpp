@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compose/fog/fog_frame.h"
 
+#include "compose/frame_tasks.h"
 #include "core/parallel.h"
 #include "raytracing/camera_rays.h"
 
 namespace lambent {
-namespace {
-
-constexpr std::size_t kPixelsPerTask = 1024;
-
-}  // namespace
+namespace {}  // namespace
 
 FogRequest fog_request(const FrameRequest& request) {
   const FrameSettings& settings = request.settings;
@@ -30,7 +27,7 @@ void find_fog(const FrameRequest& request, const FroxelFog& fog, const Band& ban
               const GBuffer& gbuffer, std::vector<glm::vec4>& light) {
   const FrameSettings& settings = request.settings;
   light.resize(gbuffer.size());
-  parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(gbuffer.size(), kCostlyPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const int x = static_cast<int>(i % settings.width);
       const int y = band.first_row + static_cast<int>(i / settings.width);

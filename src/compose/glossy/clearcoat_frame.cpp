@@ -3,17 +3,14 @@
 // their place.
 #include <algorithm>
 
+#include "compose/frame_tasks.h"
 #include "compose/glossy/glossy_frame.h"
 #include "compose/pixel_math.h"
 #include "core/parallel.h"
 #include "scene/transmission.h"
 
 namespace lambent {
-namespace {
-
-constexpr std::size_t kPixelsPerTask = 4096;
-
-}  // namespace
+namespace {}  // namespace
 
 void show_clearcoats(GBuffer& pixels) {
   parallel_chunks(pixels.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cassert>
 
+#include "compose/frame_tasks.h"
 #include "compose/glossy/path_rays.h"
 #include "core/parallel.h"
 #include "raytracing/world_access.h"
@@ -12,8 +13,6 @@
 
 namespace lambent {
 namespace {
-
-constexpr std::size_t kPixelsPerTask = 1024;
 
 /// The field query at a ray's hit for light from around `direction_ws`.
 FieldQuery query_of(const Ray& ray, const Surface& met, const vec3& direction_ws) {
@@ -58,7 +57,7 @@ std::uint64_t Glossy::send_rays(const GlossySettings& settings,
   std::size_t first = 0;
   for (const GlossyRows& rows : around) {
     const GBuffer& seen = rows.pixels;
-    parallel_chunks(seen.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    parallel_chunks(seen.size(), kCostlyPixelsPerTask, [&](std::size_t begin, std::size_t end) {
       std::uint64_t count = 0;
       for (std::size_t i = begin; i < end; ++i) {
         const int y = rows.first_row + static_cast<int>(i / width);
@@ -99,7 +98,7 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
   met_.hit.resize(rays_.size());
   met_.to_viewer_ws.resize(rays_.size());
   met_.coat_shares.assign(rays_.size(), 0.0f);
-  parallel_chunks(rays_.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(rays_.size(), kCostlyPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<Ray> rays;
     std::vector<std::size_t> pixels;
     for (std::size_t i = begin; i < end; ++i) {
@@ -184,7 +183,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
   }
   const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);
   std::atomic<std::uint64_t> going_on = 0;
-  parallel_chunks(met_.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(met_.size(), kCostlyPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     std::uint64_t going = 0;
     for (std::size_t i = begin; i < end; ++i) {
       if (met_.hit[i] == 0) continue;

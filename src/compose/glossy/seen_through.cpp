@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "compose/frame_tasks.h"
 #include "compose/pixel_math.h"
 #include "core/parallel.h"
 #include "glossy/path_math.h"
@@ -11,8 +12,6 @@
 
 namespace lambent {
 namespace {
-
-constexpr std::size_t kPixelsPerTask = 4096;
 
 bool is_any_positive(const std::vector<float>& values) {
   return std::any_of(values.begin(), values.end(), [](float value) { return value > 0.0f; });

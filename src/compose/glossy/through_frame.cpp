@@ -4,17 +4,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "compose/frame_tasks.h"
 #include "compose/glossy/glossy_frame.h"
 #include "compose/glossy/path_rays.h"
 #include "compose/pixel_math.h"
 #include "core/parallel.h"
 
 namespace lambent {
-namespace {
-
-constexpr std::size_t kPixelsPerTask = 1024;
-
-}  // namespace
+namespace {}  // namespace
 
 /// Draws the rays of pixels whose surfaces transmit light. Returns how many there are.
 std::uint64_t Glossy::send_through(const GlossySettings& settings, const GBuffer& seen) {
@@ -43,7 +40,7 @@ std::uint64_t Glossy::send_through(const GlossySettings& settings, const GBuffer
 /// light of their coats. Elsewhere, emitters' light joins the other direct light.
 void Glossy::keep_behind(const GlossySettings& settings, const KeptBehind& kept) {
   const bool has_emitters = !direct_.emitters.empty();
-  parallel_chunks(met_.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(met_.size(), kCostlyPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (met_.hit[i] == 0) continue;
       const Surface& surface = met_.surfaces[i];
@@ -78,7 +75,7 @@ void Glossy::keep_behind(const GlossySettings& settings, const KeptBehind& kept)
 /// Stores the reflected branches of paths that split at glass.
 void Glossy::split_paths(const GlossySettings& settings, std::uint32_t bounce) {
   const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);
-  parallel_chunks(met_.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(met_.size(), kCostlyPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (met_.hit[i] == 0) continue;
       const Surface& surface = met_.surfaces[i];

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/image/mid_grey.h"
 #include "shared/color.h"
 
 namespace lambent {
 namespace {
 
-constexpr double kMidGrey = 0.18;
 // Pixels count as at most this much darker or brighter than the median [stops]: the range that a
 // display shows around mid-grey.
 constexpr double kDarker = 5.0, kBrighter = 3.0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/image/flip.h"
+#include "core/image/mid_grey.h"
 #include "core/image/ssim.h"
 #include "shared/color.h"
 
@@ -16,8 +17,6 @@ namespace {
 /// PSNR's white for linear radiance is this quantile of B's numbers, so that a lamp or a firefly
 /// does not inflate PSNR.
 constexpr double kPeakPercentile = 0.999;
-/// Reinhard et al. 2002: the value of mid-grey to which the log-average is scaled.
-constexpr double kMidGrey = 0.18;
 constexpr int kMaxColorChannels = 3;
 
 std::string shape(const Image& image) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/image/mid_grey.h"
 #include "shared/tone_map.h"
 
 namespace lambent {
@@ -38,16 +39,16 @@ Image display_image(const Image& linear, ToneMap tone_map, float exposure_stops)
 }
 
 float radiance_of_colors(ToneMap tone_map, float exposure_stops) {
-  constexpr float kMidGrey = 0.18f;
+  constexpr auto grey = static_cast<float>(kMidGrey);
   // Bisect: curves are increasing, and all of them map mid-grey to between half and twice its value
-  float low = 0.5f * kMidGrey, high = 2.0f * kMidGrey;
+  float low = 0.5f * grey, high = 2.0f * grey;
   constexpr int kHalvings = 24;  // bits of a float
   for (int i = 0; i < kHalvings; ++i) {
     const float middle = 0.5f * (low + high);
-    const bool dark = lambent::tone_map(vec3(middle), static_cast<uint>(tone_map)).y < kMidGrey;
+    const bool dark = lambent::tone_map(vec3(middle), static_cast<uint>(tone_map)).y < grey;
     (dark ? low : high) = middle;
   }
-  return std::clamp(high / kMidGrey * std::exp2(-exposure_stops), 1e-10f, 1e10f);
+  return std::clamp(high / grey * std::exp2(-exposure_stops), 1e-10f, 1e10f);
 }
 
 }  // namespace lambent

@@ -46,7 +46,7 @@ struct StaleProbes {
 };
 
 /// The state of the edits of a field's world.
-struct SceneEdits {
+struct FieldEdits {
   PendingEdits pending;
   std::uint64_t applied_revision = 0;  ///< Revision with which all but sleeping probes are current.
   std::vector<int> stale_sleeping;     ///< Stale sleeping probes, the oldest first.

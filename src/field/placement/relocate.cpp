@@ -20,7 +20,7 @@ namespace {
 // The number of fixed rays. It is large enough that several rays hit a wall half a cell away at a
 // steep angle.
 constexpr int kFixedRays = 128;
-constexpr std::size_t kProbesPerTask = 16;
+constexpr std::size_t kRelocatedPerTask = 16;
 
 // A ray passes through at most this many moving surfaces, and continues this fraction of its length
 // behind each.
@@ -123,7 +123,7 @@ void settle(const StaticScene& stage, std::span<const int> probes, ProbeStore& s
     }
     fixed_hits.resize(relocations.size() * directions);
     trace_fixed_rays(stage, viewpoints, fixed_hits);
-    parallel_chunks(relocations.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+    parallel_chunks(relocations.size(), kRelocatedPerTask, [&](std::size_t begin, std::size_t end) {
       for (std::size_t w = begin; w < end; ++w) {
         relocations[w].step({&fixed_hits[w * directions], directions}, store);
       }
@@ -154,7 +154,7 @@ std::vector<PlaceGrid> place_grids(const ProbeStore& store) {
 }
 
 std::size_t viewpoints_of_batch(const RayTracer& tracer) {
-  return batch_of(tracer, kFixedRays, kProbesPerTask);
+  return batch_of(tracer, kFixedRays, kRelocatedPerTask);
 }
 
 void trace_fixed_rays(const StaticScene& stage, std::span<const Viewpoint> viewpoints,
@@ -169,7 +169,7 @@ void trace_fixed_rays(const StaticScene& stage, std::span<const Viewpoint> viewp
   }
   stage.tracer.closest_hits(rays, hits);
   pass_moving_surfaces(stage.tracer, stage.moving, rays, hits);
-  parallel_chunks(rays.size(), kProbesPerTask * kFixedRays,
+  parallel_chunks(rays.size(), kRelocatedPerTask * kFixedRays,
                   [&](std::size_t begin, std::size_t end) {
                     for (std::size_t i = begin; i < end; ++i) {
                       const mat3& axes = viewpoints[i / directions.size()].axes;

@@ -16,7 +16,7 @@
 namespace lambent {
 namespace {
 
-constexpr std::size_t kProbesPerTask = 16;
+constexpr std::size_t kScrolledPerTask = 16;
 
 /// Looks the field up at the places of some probes, along the direction of every texel.
 void interpolate_tiles(const ProbeData& data, const FieldBackend& backend,
@@ -24,7 +24,7 @@ void interpolate_tiles(const ProbeData& data, const FieldBackend& backend,
                        std::span<vec4> tiles) {
   const int edge = data.settings.irradiance_texels;
   const std::size_t texels = tiles.size() / max<std::size_t>(probes.size(), 1);
-  parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(probes.size(), kScrolledPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<FieldQuery> queries(texels);
     std::vector<vec3> irradiance(texels);
     std::vector<vec4> at_centres(texels);

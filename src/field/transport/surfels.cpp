@@ -13,7 +13,7 @@
 namespace lambent {
 namespace {
 
-constexpr std::size_t kProbesPerTask = 8;
+constexpr std::size_t kTracedPerTask = 8;
 
 // The most rays of a probe. It gives each ray of each probe an index of its own, for its random
 // numbers.
@@ -76,7 +76,7 @@ void trace_probe_rays(const RayTracer& tracer, const ProbeStore& store, TraceGro
   const std::vector<vec3>& directions = group.rays->directions;
   const std::size_t rays = directions.size();
   group.hits.resize(group.probes.size() * rays);
-  parallel_chunks(group.probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(group.probes.size(), kTracedPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<Ray> batch(rays);
     for (std::size_t k = begin; k < end; ++k) {
       const vec3 origin = store.probe_position_ws(group.probes[k]);
@@ -108,7 +108,7 @@ std::uint64_t shade_surfels(const World& world, const SolidSides& solid_sides,
   const ShadeHitsSettings shading = surfel_shading(settings, *group.rays, &solid_sides);
   std::atomic<std::uint64_t> shadow_rays = 0;
 
-  parallel_chunks(group.probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(group.probes.size(), kTracedPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<Ray> batch(rays);
     std::vector<ShadedHit> shaded(rays);
     ShadeHitsScratch scratch;
@@ -139,7 +139,7 @@ std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays&
   assert(flagged.empty() || (flagged.size() == probes.size() && store.volumes() == 1));
   const int texels = store.irradiance_texels();
   std::atomic<std::uint64_t> rays = 0;
-  parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(probes.size(), kTracedPerTask, [&](std::size_t begin, std::size_t end) {
     struct Place {
       int probe;
       int ray;
@@ -198,7 +198,7 @@ std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays&
 void flag_readers(std::span<const int> read, std::span<const int> probes, const ProbeStore& store,
                   std::span<const ProbeTrace> traces, std::span<SurfelFlags> flagged) {
   const ReadsOne reads_one(read, store);
-  parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(probes.size(), kTracedPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const ProbeTrace& trace = traces[probes[k]];
       flagged[k].resize(trace.surfels.size(), 0);
@@ -214,7 +214,7 @@ std::vector<int> probes_reading(std::span<const int> read, std::span<const int> 
                                 const ProbeStore& store, std::span<const ProbeTrace> traces) {
   std::vector<std::uint8_t> reads(among.size(), 0);
   const ReadsOne reads_one(read, store);
-  parallel_chunks(among.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(among.size(), kTracedPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const ProbeTrace& trace = traces[among[k]];
       bool one = std::any_of(trace.further.begin(), trace.further.end(),

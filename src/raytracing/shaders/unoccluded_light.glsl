@@ -7,7 +7,7 @@
 #include "scene/light_tree/unoccluded_math.h"
 #include "shared/color.h"
 
-#define LightTreeRef SceneArray
+#define LitTreeRef SceneArray
 
 uint light_tree_size(SceneArray scene) {
   return scene.at[0].light_tree_size;

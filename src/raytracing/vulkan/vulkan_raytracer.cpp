@@ -150,7 +150,8 @@ void VulkanRayTracer::tell_sizes() {
   statistics_.triangles = triangle_count(scene_);
   statistics_.instances = scene_.instances.size();
   statistics_.bytes = acceleration_->bytes();
-  has_glass_ = std::any_of(scene_.materials.begin(), scene_.materials.end(), is_transmissive);
+  has_glass_ = std::any_of(scene_.materials.begin(), scene_.materials.end(),
+                           [](const Material& material) { return is_transmissive(material); });
 }
 
 void VulkanRayTracer::update(const GeometryEdits& edits) {

@@ -48,7 +48,7 @@ void write_guide(DeviceGuide guide, int place, Pixel pixel, float depth) {
 
 /// Writes the pixel's light: to the picture, or to the mosaic in the form that can be blurred.
 void finish_pixel(DeviceView view, GatherTarget target, ivec2 size, uint flags, Pixel pixel,
-                  GatheredLight gathered) {
+                  TexelLight gathered) {
   int i = pixel.at.y * size.x + pixel.at.x;
   vec3 light = gathered.light;
   if ((flags & kGatherDimmed) != 0u) light *= target.arrived.at[i];

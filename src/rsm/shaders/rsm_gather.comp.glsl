@@ -44,11 +44,11 @@ ivec2 place_of(int i) {
 void main() {
   Pixel pixels[kGatherPixels];
   bool exists[kGatherPixels];
-  GatheredLight sums[kGatherPixels];
+  TexelLight sums[kGatherPixels];
   ivec2 size = ivec2(args.width, args.height);
   for (int i = 0; i < kGatherPixels; ++i) {
     exists[i] = find_pixel(args.view, size, place_of(i), pixels[i]);
-    sums[i] = GatheredLight(vec3(0.0f), vec3(0.0f));
+    sums[i] = TexelLight(vec3(0.0f), vec3(0.0f));
   }
   bool ways = (args.flags & kGatherBlurred) != 0u;
   int sub_map = sub_map_of(sub_image_of_group(kSubImages), args.sub_maps);

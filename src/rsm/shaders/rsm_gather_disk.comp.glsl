@@ -16,7 +16,7 @@ uint texel_index(int resolution, ivec2 sub_map, ivec2 place) {
                        : sub_map_texel(texel, resolution, args.sub_maps));
 }
 
-void gather_map(inout GatheredLight sum, DiskMap map, Pixel pixel) {
+void gather_map(inout TexelLight sum, DiskMap map, Pixel pixel) {
   int n = args.sub_maps;
   ivec2 sub_map = sub_image_of(pixel.at, n);
   ivec2 size = ivec2(sub_image_size(map.resolution, sub_map.x, n),
@@ -40,7 +40,7 @@ void main() {
   Pixel pixel;
   ivec2 size = ivec2(args.width, args.height);
   if (!find_pixel(args.view, size, own_place(0), pixel)) return;
-  GatheredLight sum = {vec3(0.0f), vec3(0.0f)};
+  TexelLight sum = {vec3(0.0f), vec3(0.0f)};
   for (int m = 0; m < args.map_count; ++m) gather_map(sum, args.maps.at[m], pixel);
   finish_pixel(args.view, args.target, size, args.flags, pixel, sum);
 }

@@ -16,7 +16,7 @@ void main() {
   bool ways = (args.flags & kGatherBlurred) != 0u;
   bool rendered = (args.flags & kGatherRendered) != 0u;
   uint start = uint(sub_map_of(pixel.at, args.sub_maps) * args.count);
-  GatheredLight sum = {vec3(0.0f), vec3(0.0f)};
+  TexelLight sum = {vec3(0.0f), vec3(0.0f)};
   for (int k = 0; k < args.count; ++k) {
     uint at = start + uint(k);
     RsmTexelRecord texel = args.texels.at[rendered ? args.places.at[at] : at];

@@ -19,11 +19,8 @@ namespace {
 // Most rays in memory at once, unless the rays of a band's pixels to one light are more.
 constexpr std::uint32_t kMaxRays = 1u << 20;
 
-// Specialisation constant of src/rsm/shaders/sub_image.glsl.
-constexpr std::uint32_t kSubImagesConstant = 0;
-
-vulkan::Kernel make_kernel(const vulkan::Device& device, vulkan::Spirv spirv, const char* name,
-                           int sub_images) {
+vulkan::Kernel make_direct_kernel(const vulkan::Device& device, vulkan::Spirv spirv,
+                                  const char* name, int sub_images) {
   const vulkan::Constant constant = {kSubImagesConstant, static_cast<std::uint32_t>(sub_images)};
   return {device, spirv, name, {&constant, 1}};
 }
@@ -53,9 +50,12 @@ class AllKernels {
 }  // namespace
 
 RsmDirectKernels::RsmDirectKernels(const vulkan::Device& device, int sub_images)
-    : rays(make_kernel(device, shaders::rsm_direct_rays_comp(), "rsm.direct_rays", sub_images)),
-      sent(make_kernel(device, shaders::rsm_direct_sent_comp(), "rsm.direct_sent", sub_images)),
-      sum(make_kernel(device, shaders::rsm_direct_sum_comp(), "rsm.direct_sum", sub_images)) {}
+    : rays(make_direct_kernel(device, shaders::rsm_direct_rays_comp(), "rsm.direct_rays",
+                              sub_images)),
+      sent(make_direct_kernel(device, shaders::rsm_direct_sent_comp(), "rsm.direct_sent",
+                              sub_images)),
+      sum(make_direct_kernel(device, shaders::rsm_direct_sum_comp(), "rsm.direct_sum",
+                             sub_images)) {}
 
 RsmDirectVulkan::RsmDirectVulkan(const vulkan::Device& device) : device_(device) {}
 

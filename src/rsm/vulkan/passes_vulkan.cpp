@@ -17,8 +17,8 @@
 namespace lambent {
 namespace {
 
-// Specialisation constants of src/rsm/shaders/.
-constexpr std::uint32_t kSubImagesConstant = 0, kRelitConstant = 1;
+// Specialisation constant of src/rsm/shaders/.
+constexpr std::uint32_t kRelitConstant = 1;
 
 // Size of the gathers' workgroups; see src/rsm/shaders/gather_pixel.glsl.
 constexpr int kGatherTileWidth = 32, kGatherTileHeight = 8;

@@ -17,6 +17,9 @@
 
 namespace lambent {
 
+/// Specialisation constant of src/rsm/shaders/sub_image.glsl.
+inline constexpr std::uint32_t kSubImagesConstant = 0;
+
 /// What the camera sees, in buffers of a device that the caller owns.
 struct RsmViewOnDevice {
   int width = 0, height = 0;

@@ -67,10 +67,6 @@ constexpr Property kCameraProperties[] = {
     {"/perspective/yfov", Target::camera_vertical_fov, 1},
     {"/orthographic/ymag", Target::camera_vertical_extent, 1}};
 
-glm::vec3 vec3_of(const std::vector<double>& numbers, const glm::vec3& fallback) {
-  return numbers.size() == 3 ? glm::vec3(numbers[0], numbers[1], numbers[2]) : fallback;
-}
-
 }  // namespace
 
 MotionImporter::MotionImporter(Document& document, const NodeTree& tree)

@@ -9,7 +9,7 @@ namespace {
 
 using json = nlohmann::json;
 
-constexpr const char* kKey = "lambent_fog";
+constexpr const char* kFogKey = "lambent_fog";
 
 /// Reads one number for all channels, or three.
 bool read_albedo(const json& value, glm::vec3& albedo) {
@@ -59,11 +59,11 @@ const char* read_fog(const json& extras, FogVolume& fog) {
 void read_node_fog(Document& document, const json& root) {
   const json nodes = root.value("nodes", json::array());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const json::json_pointer pointer(std::string("/extras/") + kKey);
+    const json::json_pointer pointer(std::string("/extras/") + kFogKey);
     if (!nodes[i].contains(pointer)) continue;
     FogVolume fog;
     if (const char* flaw = read_fog(nodes[i][pointer], fog)) {
-      document.warn(entry("nodes", i) + ".extras." + kKey + " " + flaw + " and was ignored.");
+      document.warn(entry("nodes", i) + ".extras." + kFogKey + " " + flaw + " and was ignored.");
       continue;
     }
     document.node_fog.emplace(static_cast<int>(i), std::move(fog));
@@ -80,7 +80,7 @@ void place_fog(Document& document, int node, const glm::mat4& world_from_node, S
     flaw = "there are 16 boxes of fog already.";
   }
   if (flaw != nullptr) {
-    document.warn(entry("nodes", node) + ".extras." + kKey + " was ignored: " + flaw);
+    document.warn(entry("nodes", node) + ".extras." + kFogKey + " was ignored: " + flaw);
     return;
   }
   scene.fog.push_back(std::move(fog));

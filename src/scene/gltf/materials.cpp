@@ -12,10 +12,6 @@ namespace {
 constexpr bool kColor = true;  // Texels are sRGB-encoded
 constexpr bool kData = false;  // Texels are numbers
 
-glm::vec3 vec3_of(const std::vector<double>& numbers, const glm::vec3& fallback) {
-  return numbers.size() == 3 ? glm::vec3(numbers[0], numbers[1], numbers[2]) : fallback;
-}
-
 // Reads one material; errors and warnings name it.
 class MaterialReader {
  public:

@@ -12,7 +12,7 @@ namespace {
 
 using json = nlohmann::json;
 
-constexpr const char* kKey = "lambent_probe_volume";
+constexpr const char* kVolumeKey = "lambent_probe_volume";
 
 // Limit of probes along one axis, above that of any field.
 constexpr double kMaxBatchProbes = 1048576.0;
@@ -55,11 +55,11 @@ const char* read_volume(const json& extras, ProbeVolume& volume) {
 void read_node_volumes(Document& document, const json& root) {
   const json nodes = root.value("nodes", json::array());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const json::json_pointer pointer(std::string("/extras/") + kKey);
+    const json::json_pointer pointer(std::string("/extras/") + kVolumeKey);
     if (!nodes[i].contains(pointer)) continue;
     ProbeVolume volume;
     if (const char* flaw = read_volume(nodes[i][pointer], volume)) {
-      document.warn(entry("nodes", i) + ".extras." + kKey + " " + flaw + " and was ignored.");
+      document.warn(entry("nodes", i) + ".extras." + kVolumeKey + " " + flaw + " and was ignored.");
       continue;
     }
     document.node_volumes.emplace(static_cast<int>(i), std::move(volume));
@@ -72,7 +72,7 @@ void place_volume(Document& document, int node, const glm::mat4& world_from_node
   ProbeVolume volume = asked->second;
   volume.name = document.model.nodes[node].name;
   if (const char* flaw = place_box(world_from_node, volume.centre, volume.size, volume.axes)) {
-    document.warn(entry("nodes", node) + ".extras." + kKey + " was ignored: " + flaw);
+    document.warn(entry("nodes", node) + ".extras." + kVolumeKey + " was ignored: " + flaw);
     return;
   }
   scene.volumes.push_back(std::move(volume));

@@ -13,7 +13,7 @@ struct LitTree {
 };
 
 // The types and functions that unoccluded_light.inl.h requires.
-using LightTreeRef = const LitTree&;
+using LitTreeRef = const LitTree&;
 
 uint light_tree_size(const LitTree& of) {
   return static_cast<uint>(of.tree.nodes().size());

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The unoccluded light of all lights of a light tree at a point, in the common subset of C++ and
 // GLSL. The includer provides the type
-//   LightTreeRef  a tree
+//   LitTreeRef  a tree
 // and
-//   uint light_tree_size(LightTreeRef tree)    its nodes; the first one is the root
-//   LightTreeNode fetch_node(LightTreeRef tree, uint node)
-//   uint emitter_count(LightTreeRef tree)      of emissive triangles and pieces of them, which come
+//   uint light_tree_size(LitTreeRef tree)    its nodes; the first one is the root
+//   LightTreeNode fetch_node(LitTreeRef tree, uint node)
+//   uint emitter_count(LitTreeRef tree)      of emissive triangles and pieces of them, which come
 //                                              first among the lights of leaves
-//   EmitterRecord fetch_emitter(LightTreeRef tree, uint emitter)
-//   LightRecord fetch_light(LightTreeRef tree, uint light)
+//   EmitterRecord fetch_emitter(LitTreeRef tree, uint emitter)
+//   LightRecord fetch_light(LitTreeRef tree, uint light)
 
 /// Luminance of a white Lambert surface with this unit normal under the light of a leaf [W/(m^2
 /// sr)].
-LAMBENT_FN float light_of_leaf(LightTreeRef tree, LightTreeNode leaf, vec3 position_ws,
+LAMBENT_FN float light_of_leaf(LitTreeRef tree, LightTreeNode leaf, vec3 position_ws,
                                vec3 normal_ws) {
   uint light = leaf.link & ~kLightTreeLeaf;
   uint emitters = emitter_count(tree);
@@ -33,7 +33,7 @@ const int kMostWaitingNodes = 48;
 /// Luminance of a white Lambert surface with this unit normal [W/(m^2 sr)], without noise and
 /// continuous. Distant clusters count as one light: Barnes and Hut, "A Hierarchical O(N log N)
 /// Force-Calculation Algorithm", Nature 324, 1986.
-LAMBENT_FN float unoccluded_light(LightTreeRef tree, vec3 position_ws, vec3 normal_ws) {
+LAMBENT_FN float unoccluded_light(LitTreeRef tree, vec3 position_ws, vec3 normal_ws) {
   if (light_tree_size(tree) == 0u) return 0.0f;
   uint waiting[kMostWaitingNodes];
   float shares[kMostWaitingNodes];

@@ -5,11 +5,16 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "lambent/error.h"
 #include "lambent/stream.h"
 
 namespace lambent::stream {
+
+inline tl::unexpected<Error> h265_failed(const std::string& why) {
+  return fail("H.265", "", why, Error::Kind::failed);
+}
 
 /// Fail where this was built without H.265, or the codec does not support the format.
 Expected<std::unique_ptr<TextureWriter>> make_h265_writer();

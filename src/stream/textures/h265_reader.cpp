@@ -14,10 +14,6 @@ extern "C" {
 namespace lambent::stream {
 namespace {
 
-tl::unexpected<Error> failed(const std::string& why) {
-  return fail("H.265", "", why, Error::Kind::failed);
-}
-
 class AvReader : public TextureReader {
  public:
   AvReader(const AVCodec& codec, AVFrame& frame, AVPacket& packet)
@@ -41,14 +37,14 @@ class AvReader : public TextureReader {
     packet_->data = padded_.data();
     packet_->size = static_cast<int>(bytes.size());
     if (avcodec_send_packet(context_, packet_) < 0 || avcodec_receive_frame(context_, frame_) < 0) {
-      return failed("a picture is broken");
+      return h265_failed("a picture is broken");
     }
     const bool as_expected = frame_->width == picture.width && frame_->height == picture.height &&
                              frame_->format == AV_PIX_FMT_YUV444P10LE &&
                              frame_->decode_error_flags == 0;
     if (as_expected) copy(picture);
     av_frame_unref(frame_);
-    if (!as_expected) return failed("a picture is not of the size and kind of its field");
+    if (!as_expected) return h265_failed("a picture is not of the size and kind of its field");
     return {};
   }
 
@@ -56,7 +52,7 @@ class AvReader : public TextureReader {
   Expected<void> open(const TexturePicture& picture) {
     avcodec_free_context(&context_);
     context_ = avcodec_alloc_context3(&codec_);
-    if (context_ == nullptr) return failed("the decoder could not be started");
+    if (context_ == nullptr) return h265_failed("the decoder could not be started");
     context_->flags |= AV_CODEC_FLAG_LOW_DELAY;
     context_->err_recognition = AV_EF_EXPLODE;
     context_->thread_count = 1;
@@ -64,7 +60,7 @@ class AvReader : public TextureReader {
     constexpr std::int64_t kBlock = 64;
     context_->max_pixels = (picture.width + kBlock) * (picture.height + kBlock);
     if (avcodec_open2(context_, &codec_, nullptr) < 0) {
-      return failed("the decoder could not be started");
+      return h265_failed("the decoder could not be started");
     }
     return {};
   }
@@ -95,13 +91,13 @@ class AvReader : public TextureReader {
 Expected<std::unique_ptr<TextureReader>> make_h265_reader() {
   av_log_set_level(AV_LOG_QUIET);
   const AVCodec* codec = avcodec_find_decoder(AV_CODEC_ID_HEVC);
-  if (codec == nullptr) return failed("libavcodec was built without it");
+  if (codec == nullptr) return h265_failed("libavcodec was built without it");
   AVFrame* frame = av_frame_alloc();
   AVPacket* packet = av_packet_alloc();
   if (frame == nullptr || packet == nullptr) {
     av_frame_free(&frame);
     av_packet_free(&packet);
-    return failed("memory runs out");
+    return h265_failed("memory runs out");
   }
   return std::make_unique<AvReader>(*codec, *frame, *packet);
 }

@@ -14,10 +14,6 @@ constexpr int kBits = 10;
 // Nominal frame rate, since pictures are not displayed.
 constexpr std::uint32_t kRate = 10;
 
-tl::unexpected<Error> failed(const std::string& why) {
-  return fail("H.265", "", why, Error::Kind::failed);
-}
-
 class X265Writer : public TextureWriter {
  public:
   explicit X265Writer(const x265_api& api) : api_(api) {}
@@ -49,7 +45,7 @@ class X265Writer : public TextureWriter {
     x265_nal* units = nullptr;
     std::uint32_t count = 0;
     if (api_.encoder_encode(encoder_, &units, &count, &in, &out) != 1) {
-      return failed("the encoder gave no picture for one");
+      return h265_failed("the encoder gave no picture for one");
     }
     ++pictures_;
     copy(out, picture, shown);
@@ -66,7 +62,7 @@ class X265Writer : public TextureWriter {
   Expected<void> open(int width, int height) {
     param_ = api_.param_alloc();
     if (param_ == nullptr || api_.param_default_preset(param_, "medium", "zerolatency") < 0) {
-      return failed("the encoder could not be started");
+      return h265_failed("the encoder could not be started");
     }
     param_->logLevel = X265_LOG_NONE;
     param_->sourceWidth = width;
@@ -102,7 +98,7 @@ class X265Writer : public TextureWriter {
     param_->numaPools = none;  // leave the other cores to the renderer
     encoder_ = api_.encoder_open(param_);
     param_->numaPools = nullptr;
-    if (encoder_ == nullptr) return failed("the encoder refuses pictures of this size");
+    if (encoder_ == nullptr) return h265_failed("the encoder refuses pictures of this size");
     width_ = width;
     height_ = height;
     return {};
@@ -139,7 +135,7 @@ class X265Writer : public TextureWriter {
 
 Expected<std::unique_ptr<TextureWriter>> make_h265_writer() {
   const x265_api* api = x265_api_get(kBits);
-  if (api == nullptr) return failed("libx265 was built without 10 bits");
+  if (api == nullptr) return h265_failed("libx265 was built without 10 bits");
   return std::make_unique<X265Writer>(*api);
 }
 

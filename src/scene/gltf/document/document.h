@@ -90,6 +90,11 @@ inline std::string entry(const char* array, std::size_t index) {
   return std::string(array) + "[" + std::to_string(index) + "]";
 }
 
+/// Three numbers of the file; `fallback` where it has none.
+inline glm::vec3 vec3_of(const std::vector<double>& numbers, const glm::vec3& fallback) {
+  return numbers.size() == 3 ? glm::vec3(numbers[0], numbers[1], numbers[2]) : fallback;
+}
+
 /// Reads container, JSON and buffers. `bytes` is the whole .gltf or .glb.
 Expected<Document> read_document(ByteSpan bytes, const std::string& file, bool file_access);
 
