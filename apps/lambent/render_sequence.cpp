@@ -33,8 +33,8 @@ Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int a
     const Expected<WorldChanges> changes = world.update();
     if (!changes) return tl::unexpected(changes.error());
 
-    // A camera of the scene moves along; any other stays where it is
-    if (view.from == View::From::scene) {
+    // A camera of the scene moves along; any other stays where it is, as all do where nothing moves
+    if (view.from == View::From::scene && !scene.animations.empty()) {
       Expected<Camera> moved = camera_of_scene(options.stage, scene);
       if (!moved) return tl::unexpected(moved.error());
       view.camera = std::move(*moved);
