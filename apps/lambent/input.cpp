@@ -25,7 +25,8 @@ enum class Content { unknown, scene, image, field, prepared, foreign };
 
 struct Kind {
   Content content = Content::unknown;
-  std::string name;  // "an OpenEXR image"
+  std::string name;    // "an OpenEXR image"
+  std::string advice;  // What makes a scene of it; may be empty.
 };
 
 /// The first bytes of files of a kind.
@@ -33,7 +34,10 @@ struct Signature {
   std::string_view bytes;
   Content content;
   const char* name;
+  const char* advice = "";
 };
+constexpr const char* kConvert = "convert it to glTF, say with Blender";
+constexpr const char* kUnpack = "unpack it first";
 constexpr Signature kSignatures[] = {
     {"glTF"sv, Content::scene, "a binary glTF scene"},
     {"\x76\x2f\x31\x01"sv, Content::image, "an OpenEXR image"},
@@ -44,14 +48,14 @@ constexpr Signature kSignatures[] = {
     {"LAMBENTF"sv, Content::field, "a field of lambent bake"},
     {"lambent prepared"sv, Content::prepared, "a prepared scene, which lambent_gpu_bench reads"},
     {"\xabKTX 20\xbb"sv, Content::foreign, "a KTX2 texture"},
-    {"Kaydara FBX"sv, Content::foreign, "an FBX scene: convert it to glTF, say with Blender"},
-    {"BLENDER"sv, Content::foreign, "a Blender file: export it as glTF"},
-    {"PXR-USDC"sv, Content::foreign, "a USD scene: convert it to glTF, say with Blender"},
-    {"#usda"sv, Content::foreign, "a USD scene: convert it to glTF, say with Blender"},
-    {"ply\n"sv, Content::foreign, "a PLY mesh: convert it to glTF, say with Blender"},
-    {"ply\r\n"sv, Content::foreign, "a PLY mesh: convert it to glTF, say with Blender"},
-    {"PK\x03\x04"sv, Content::foreign, "a ZIP archive: unpack it first"},
-    {"\x1f\x8b"sv, Content::foreign, "a gzip archive: unpack it first"},
+    {"Kaydara FBX"sv, Content::foreign, "an FBX scene", kConvert},
+    {"BLENDER"sv, Content::foreign, "a Blender file", "export it as glTF"},
+    {"PXR-USDC"sv, Content::foreign, "a USD scene", kConvert},
+    {"#usda"sv, Content::foreign, "a USD scene", kConvert},
+    {"ply\n"sv, Content::foreign, "a PLY mesh", kConvert},
+    {"ply\r\n"sv, Content::foreign, "a PLY mesh", kConvert},
+    {"PK\x03\x04"sv, Content::foreign, "a ZIP archive", kUnpack},
+    {"\x1f\x8b"sv, Content::foreign, "a gzip archive", kUnpack},
 };
 // Bytes of a file that are examined: more than any signature, and than white space before JSON.
 constexpr std::size_t kLookedAt = 512;
@@ -60,12 +64,13 @@ constexpr std::size_t kLookedAt = 512;
 struct ForeignEnding {
   const char* ending;
   const char* name;
+  const char* advice;
 };
 constexpr ForeignEnding kForeignEndings[] = {
-    {".obj", "a Wavefront OBJ scene: convert it to glTF, say with Blender"},
-    {".dae", "a COLLADA scene: convert it to glTF, say with Blender"},
-    {".stl", "an STL mesh: convert it to glTF, say with Blender"},
-    {".3ds", "a 3D Studio scene: convert it to glTF, say with Blender"},
+    {".obj", "a Wavefront OBJ scene", kConvert},
+    {".dae", "a COLLADA scene", kConvert},
+    {".stl", "an STL mesh", kConvert},
+    {".3ds", "a 3D Studio scene", kConvert},
 };
 
 /// The kind of a file, by its first bytes, or by its ending.
@@ -75,10 +80,11 @@ Kind kind_of(const std::string& path) {
   file.read(bytes.data(), bytes.size());
   const std::string_view start(bytes.data(), static_cast<std::size_t>(file.gcount()));
   for (const Signature& signature : kSignatures) {
-    if (start.starts_with(signature.bytes)) return {signature.content, signature.name};
+    if (start.starts_with(signature.bytes))
+      return {signature.content, signature.name, signature.advice};
   }
   for (const ForeignEnding& foreign : kForeignEndings) {
-    if (has_ending(path, foreign.ending)) return {Content::foreign, foreign.name};
+    if (has_ending(path, foreign.ending)) return {Content::foreign, foreign.name, foreign.advice};
   }
   // JSON, with a byte order mark or without
   std::string_view text = start;
@@ -87,9 +93,9 @@ Kind kind_of(const std::string& path) {
       std::find_if(text.begin(), text.end(), [](unsigned char c) { return std::isspace(c) == 0; });
   const bool blank_so_far = first == text.end() && start.size() == kLookedAt;
   if (blank_so_far || (first != text.end() && *first == '{')) {
-    return {Content::scene, "JSON text, as glTF scenes are"};
+    return {Content::scene, "JSON text, as glTF scenes are", ""};
   }
-  return {Content::unknown, text.empty() ? "an empty file" : ""};
+  return {Content::unknown, text.empty() ? "an empty file" : "", ""};
 }
 
 /// The subcommands that read files of that content; empty: none.
@@ -163,7 +169,8 @@ Expected<void> check_input(const std::string& path, Content wanted, const char* 
   const Kind kind = kind_of(path);
   if (kind.content == wanted || (kind.content == Content::unknown && !scene)) return {};
   const std::string what = kind.name.empty() ? "" : kind.name + ", ";
-  return fail(path, "", "is " + what + "not " + wanted_name + readers_of(kind.content));
+  const std::string advice = scene && !kind.advice.empty() ? ": " + kind.advice : "";
+  return fail(path, "", "is " + what + "not " + wanted_name + advice + readers_of(kind.content));
 }
 
 }  // namespace

@@ -33,8 +33,9 @@ Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int a
     const Expected<WorldChanges> changes = world.update();
     if (!changes) return tl::unexpected(changes.error());
 
-    // A camera of the scene follows the animation; any other does not move
-    if (view.from == View::From::scene) {
+    // A camera of the scene follows the animation; any other does not move, nor does any where
+    // nothing is animated
+    if (view.from == View::From::scene && !scene.animations.empty()) {
       Expected<Camera> moved = camera_of_scene(options.stage, scene);
       if (!moved) return tl::unexpected(moved.error());
       view.camera = std::move(*moved);

@@ -39,6 +39,24 @@ Expected<Camera> named_camera(const std::string& wanted, const Scene& scene) {
   return fail("--camera", "", no_such("camera", wanted, names));
 }
 
+/// Index of the scene's first camera that sees any of its surfaces; -1: none does. Where something
+/// moves, the first one, which may see something later.
+int camera_that_shows(const World& world, float aspect) {
+  const Scene& scene = world.scene();
+  if (!scene.cameras.empty() && !scene.animations.empty()) return 0;
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    if (sees_a_surface(world, scene.cameras[i], aspect)) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+Expected<Camera> with_asked_fov(const StageOptions& options, Camera camera) {
+  if (!options.fov_degrees) return camera;
+  if (camera.orthographic) return fail("--fov", "", "an orthographic camera has none");
+  camera.vertical_fov = glm::radians(*options.fov_degrees);
+  return camera;
+}
+
 }  // namespace
 
 void add_scene_options(CLI::App& command, StageOptions& o) {
@@ -60,7 +78,8 @@ void add_stage_options(CLI::App& command, StageOptions& o) {
   command.option_defaults()->group("Where to look from");
   command
       .add_option("--camera", o.camera,
-                  "Camera of the scene, by index or name (its first, else one that shows it)")
+                  "Camera of the scene, by index or name (its first that sees any of it, else one "
+                  "that shows it)")
       ->type_name("C");
   command.add_option("--eye", o.eye, "Look from here [m]; needs --target")->type_name("X,Y,Z");
   command.add_option("--target", o.target, "Look at this point [m]")->type_name("X,Y,Z");
@@ -98,10 +117,8 @@ Expected<Scene> open_stage(const StageOptions& options) {
 Expected<Camera> camera_of_scene(const StageOptions& options, const Scene& scene) {
   Expected<Camera> camera = options.camera.empty() ? Expected<Camera>(scene.cameras.front())
                                                    : named_camera(options.camera, scene);
-  if (!camera || !options.fov_degrees) return camera;
-  if (camera->orthographic) return fail("--fov", "", "an orthographic camera has none");
-  camera->vertical_fov = glm::radians(*options.fov_degrees);
-  return camera;
+  if (!camera) return camera;
+  return with_asked_fov(options, std::move(*camera));
 }
 
 Expected<View> choose_view(const StageOptions& options, const World& world, float aspect) {
@@ -126,12 +143,19 @@ Expected<View> choose_view(const StageOptions& options, const World& world, floa
     return View{look_at(*eye, *target, vertical_fov.value_or(glm::radians(kDefaultFov))),
                 View::From::options};
   }
-  if (options.camera.empty() && scene.cameras.empty()) {
+  const int showing = options.camera.empty() ? camera_that_shows(world, aspect) : -1;
+  if (options.camera.empty() && showing < 0) {
+    if (!scene.cameras.empty()) {
+      warn(
+          "No camera of the scene sees any of its surfaces, and another view was chosen "
+          "(--camera 0 keeps the first).");
+    }
     const Expected<FirstView> view = first_view(world, {vertical_fov, aspect});
     if (!view) return tl::unexpected(view.error());
     return View{view->camera, view->inside ? View::From::inside : View::From::outside};
   }
-  const Expected<Camera> camera = camera_of_scene(options, scene);
+  const Expected<Camera> camera = showing < 0 ? camera_of_scene(options, scene)
+                                              : with_asked_fov(options, scene.cameras[showing]);
   if (!camera) return tl::unexpected(camera.error());
   return View{*camera, View::From::scene};
 }

@@ -46,8 +46,9 @@ struct View {
   From from = From::scene;
 };
 
-/// The camera of the options, else the scene's first, else one that first_view chooses
-/// (lambent/first_picture.h). `aspect` is the picture's width over its height.
+/// The camera that the options ask for, else the scene's first that sees any of its surfaces, else
+/// one that shows the scene (lambent/first_picture.h), with a warning where the scene has cameras.
+/// `aspect` is the picture's width over its height.
 Expected<View> choose_view(const StageOptions& options, const World& world, float aspect);
 
 /// The camera of the scene that the options name, else its first, of which there must be one.

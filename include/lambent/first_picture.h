@@ -31,6 +31,10 @@ struct FirstView {
 /// on settings out of range.
 Expected<FirstView> first_view(const World& world, const FirstViewSettings& settings = {});
 
+/// Whether a picture of this aspect, width over height, shows any surface: by a grid of rays, 128
+/// of them along each row.
+bool sees_a_surface(const World& world, const Camera& camera, float aspect);
+
 /// Light for scenes that have none.
 enum class FirstLight : std::uint8_t {
   scene,   ///< The scene's own light.

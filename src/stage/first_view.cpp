@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <glm/gtc/constants.hpp>
 
 #include "lambent/first_picture.h"
+#include "raytracing/camera_rays.h"
 #include "stage/views.h"
 
 namespace lambent {
@@ -14,6 +16,11 @@ namespace {
 // room.
 constexpr float kObjectFov = 45.0f;
 constexpr float kRoomFov = 60.0f;
+
+// The grid of rays that looks for surfaces: what is smaller in a picture than its cells is a speck
+// to people, too. Rows are cut in pictures much higher than they are wide.
+constexpr int kRaysAlongRow = 128;
+constexpr float kMostRows = 1024.0f;
 
 Expected<void> check(const FirstViewSettings& settings) {
   const float fov = settings.vertical_fov.value_or(1.0f);
@@ -27,6 +34,21 @@ Expected<void> check(const FirstViewSettings& settings) {
 }
 
 }  // namespace
+
+bool sees_a_surface(const World& world, const Camera& camera, float aspect) {
+  const int width = kRaysAlongRow;
+  const int height =
+      static_cast<int>(std::clamp(std::round(static_cast<float>(width) / aspect), 1.0f, kMostRows));
+  std::vector<Ray> rays;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      rays.push_back(camera_ray(camera, width, height, static_cast<float>(x) + 0.5f,
+                                static_cast<float>(y) + 0.5f));
+    }
+  }
+  const std::vector<Hit> hits = trace(world, rays);
+  return std::any_of(hits.begin(), hits.end(), [](const Hit& hit) { return !hit.missed(); });
+}
 
 Expected<FirstView> first_view(const World& world, const FirstViewSettings& settings) {
   if (const Expected<void> fine = check(settings); !fine) return tl::unexpected(fine.error());

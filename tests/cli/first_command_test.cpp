@@ -87,6 +87,42 @@ TEST_F(FirstCommand, NeverWritesOverTheSceneOrItsTextures) {
   EXPECT_EQ(bytes_of(directory.file("box.png")), "a texture");
 }
 
+TEST_F(FirstCommand, PassesOverCamerasOfTheSceneThatSeeNothing) {
+  // A triangle around the origin; cameras at z = 3 look at it unless they are turned about
+  const auto write = [this](const std::string& name, const std::string& cameras) {
+    std::ofstream(directory.file(name)) << R"({"asset": {"version": "2.0"}, "scene": 0,
+      "scenes": [{"nodes": [0, 1, 2]}], "nodes": [{"mesh": 0}, )"
+                                        << cameras << R"(],
+      "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
+      "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+      "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+      "bufferViews": [{"buffer": 0, "byteLength": 36}],
+      "buffers": [{"byteLength": 36, "uri": "triangle.bin"}]})";
+  };
+  const float triangle[] = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
+  std::ofstream(directory.file("triangle.bin"), std::ios::binary)
+      .write(reinterpret_cast<const char*>(triangle), sizeof triangle);
+  const std::string away = R"({"name": "away", "camera": 0, "translation": [0, 0, 3],
+                               "rotation": [0, 1, 0, 0]})";
+  const std::string towards = R"({"name": "towards", "camera": 0, "translation": [0, 0, 3]})";
+
+  write("one.gltf", away + ", " + towards);
+  const ProgramResult one = run_there("one.gltf -o one.exr" + kDirect);
+  ASSERT_EQ(one.status, 0) << one.errors;
+  EXPECT_THAT(one.errors, HasSubstr("camera: the scene's 'towards'"));
+  write("none.gltf", away + ", " + away);
+  const ProgramResult none = run_there("none.gltf -o none.exr" + kDirect);
+  ASSERT_EQ(none.status, 0) << none.errors;
+  EXPECT_THAT(none.errors, HasSubstr("No camera of the scene sees any of its surfaces"));
+  EXPECT_THAT(none.errors, HasSubstr("camera: the whole object"));
+  const ProgramResult asked = run_there("none.gltf --camera 0 -o asked.exr" + kDirect);
+  ASSERT_EQ(asked.status, 0) << asked.errors;
+  EXPECT_THAT(asked.errors, HasSubstr("camera: the scene's 'away'"));
+  const ProgramResult narrow = run_there("one.gltf --fov 20 -o narrow.exr" + kDirect);
+  ASSERT_EQ(narrow.status, 0) << narrow.errors;
+  EXPECT_NE(bytes_of(directory.file("narrow.exr")), bytes_of(directory.file("one.exr")));
+}
+
 TEST_F(FirstCommand, MakesFoldersThatAreMissing) {
   ASSERT_EQ(run_there("cornell -o new/of/a.png --stats other/s.json" + kDirect).status, 0);
   EXPECT_TRUE(exists("new/of/a.png"));

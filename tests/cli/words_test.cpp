@@ -139,7 +139,8 @@ TEST_F(Files, OfTheWrongKindAreNamedForWhatTheyAre) {
   EXPECT_THAT(said("field info " + image), HasSubstr("is an OpenEXR image, not a field"));
   EXPECT_THAT(said("render cornell --environment " + field), HasSubstr("not an image"));
   std::ofstream(directory.file("a.obj")) << "v 0 0 0\n";
-  EXPECT_THAT(said("info " + directory.file("a.obj")), HasSubstr("Wavefront OBJ"));
+  EXPECT_THAT(said("info " + directory.file("a.obj")),
+              HasSubstr("is a Wavefront OBJ scene, not a glTF scene: convert it to glTF"));
   std::ofstream(directory.file("none.glb")) << "";
   EXPECT_THAT(said("info " + directory.file("none.glb")), HasSubstr("is an empty file"));
   std::ofstream(directory.file("text.glb")) << "hello";

@@ -45,6 +45,26 @@ TEST(FirstView, ShowsAClosedBoxFromOutside) {
   EXPECT_EQ(coverage.backs, 0.0f);
 }
 
+TEST(FirstView, KnowsWhetherACameraSeesAnything) {
+  const Scene scene = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
+  const World world(scene);
+  constexpr float kFov = 0.8f, kWide = 16.0f / 9.0f;
+  const Camera at = look_at({0, 0, 9}, {0, 0, 0}, kFov),
+               away = look_at({0, 0, 9}, {0, 0, 20}, kFov);
+  // The box is to the right of a picture as high as wide, and in a wide one
+  const Camera beside = look_at({0, 0, 9}, {-6.2f, 0, 0}, kFov);
+  EXPECT_TRUE(sees_a_surface(world, at, kWide));
+  EXPECT_FALSE(sees_a_surface(world, away, kWide));
+  EXPECT_TRUE(sees_a_surface(world, beside, kWide));
+  EXPECT_FALSE(sees_a_surface(world, beside, 1.0f));
+  Camera parallel = beside;
+  parallel.orthographic = true;
+  parallel.vertical_extent = 1.0f;
+  EXPECT_FALSE(sees_a_surface(world, parallel, kWide));
+  parallel.vertical_extent = 30.0f;
+  EXPECT_TRUE(sees_a_surface(world, parallel, kWide));
+}
+
 TEST(FirstView, LooksDownOnThingsFromTheFront) {
   const Scene scene = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
   const glm::vec3 eye = eye_of(first_view(World(scene)).value().camera);

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "scene/gltf/document/extensions.h"
+#include "scene/gltf/files.h"
 #include "unit/gltf_builder.h"
 
 namespace lambent {
@@ -56,6 +57,23 @@ TEST_F(GltfFile, ReadsBuffersBesideAndAboveIt) {
   EXPECT_EQ(error_of(load_scene(write("beside.gltf", beside.dump()))), "");
   const Json above = triangle_with({{"byteLength", 36}, {"uri", "../a b.bin"}});
   EXPECT_EQ(error_of(load_scene(write("sub/above.gltf", above.dump()))), "");
+}
+
+TEST_F(GltfFile, BackslashesPartFoldersWhereNoFileIsNamedWithThem) {
+  GltfBuilder builder;
+  builder.show(builder.triangle());
+  const std::string bytes(builder.bytes.begin(), builder.bytes.end());
+  write("sub/in folder.bin", bytes);
+  const Json below = triangle_with({{"byteLength", 36}, {"uri", "sub\\in%20folder.bin"}});
+  const std::string scene = write("below.gltf", below.dump());
+  EXPECT_EQ(error_of(load_scene(scene)), "");
+  EXPECT_THAT(files_of_gltf(scene),
+              testing::ElementsAre((folder_ / "sub" / "in folder.bin").string()));
+  // A file of that very name is the one that is meant
+  write("a\\b.bin", bytes);
+  write("a/b.bin", "too short");
+  const Json named = triangle_with({{"byteLength", 36}, {"uri", "a\\b.bin"}});
+  EXPECT_EQ(error_of(load_scene(write("named.gltf", named.dump()))), "");
 }
 
 TEST_F(GltfFile, MissingFilesAreNamed) {

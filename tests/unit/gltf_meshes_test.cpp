@@ -54,6 +54,46 @@ TEST(GltfMeshes, FansTurnAboutTheirFirstVertex) {
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(face_normal(mesh, i), glm::vec3(0, 0, 1));
 }
 
+TEST(GltfMeshes, AttributesThatAreNotFiniteAreReplaced) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinite = std::numeric_limits<float>::infinity();
+  GltfBuilder builder = zigzag(kStrip);
+  Json& attributes = builder.root["meshes"][0]["primitives"][0]["attributes"];
+  attributes["NORMAL"] =
+      builder.accessor<float>({nan, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, infinite}, "VEC3");
+  attributes["TEXCOORD_0"] =
+      builder.accessor<float>({0, 1, nan, nan, 0, 1, 0.5f, infinite, 0, 1}, "VEC2");
+  attributes["COLOR_0"] =
+      builder.accessor<float>({0.5f, 0.5f, 0.5f, nan, 0, 0, 0, nan, 0, 0, 0, 0, 0, 0, 0}, "VEC3");
+  attributes["TANGENT"] = builder.accessor<float>(
+      {1, 0, 0, 1, nan, nan, nan, nan, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
+  builder.root["meshes"][0]["primitives"][0]["material"] = 0;
+  builder.append("images",
+                 {{"bufferView", builder.view(test::png_of(1, 1, {128, 128, 255, 255}))}});
+  builder.append("textures", {{"source", 0}});
+  builder.append("materials", {{"normalTexture", {{"index", 0}}}});
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  const Mesh& mesh = scene->meshes.at(0);
+  for (const glm::vec3& normal : mesh.normals) EXPECT_EQ(normal, glm::vec3(0, 0, 1));
+  EXPECT_EQ(mesh.uvs[0].at(0), glm::vec2(0, 1));
+  EXPECT_EQ(mesh.uvs[0].at(1), glm::vec2(0, 0));
+  EXPECT_EQ(mesh.uvs[0].at(3), glm::vec2(0, 0));
+  EXPECT_EQ(mesh.colors.at(0), glm::vec4(0.5f, 0.5f, 0.5f, 1));
+  EXPECT_EQ(mesh.colors.at(1), glm::vec4(1));
+  ASSERT_THAT(mesh.tangents, SizeIs(5));
+  EXPECT_NEAR(glm::length(glm::vec3(mesh.tangents[1])), 1.0f, 1e-6f);
+  EXPECT_THAT(scene->source.warnings,
+              testing::Contains(HasSubstr("7 attributes of vertices were not finite")));
+}
+
+TEST(GltfMeshes, PositionsThatAreNotFiniteAreErrors) {
+  GltfBuilder builder = zigzag(kStrip);
+  builder.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = builder.accessor<float>(
+      {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, std::numeric_limits<float>::quiet_NaN(), 0, 0, 2, 0}, "VEC3");
+  EXPECT_THAT(error_of(builder.load()), HasSubstr("element 3 holds a number that is not finite"));
+}
+
 TEST(GltfMeshes, PointsAreLeftOutWithAWarning) {
   const Expected<Scene> scene = zigzag(kPoints).load();
   ASSERT_TRUE(scene) << error_of(scene);

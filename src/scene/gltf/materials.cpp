@@ -23,9 +23,16 @@ class MaterialReader {
     material_.name = source_.name;
     material_.lambert = options.lambert;
     material_.double_sided = source_.doubleSided;
-    LAMBENT_CHECK(read_metallic_roughness());
+    // Files that bring both mean the older model, where it is understood, to be taken
+    constexpr const char* kOlderModel = "KHR_materials_pbrSpecularGlossiness";
+    if (const auto* older = find_extension(source_.extensions, kOlderModel)) {
+      LAMBENT_CHECK(read_specular_glossiness(*older));
+    } else {
+      LAMBENT_CHECK(read_metallic_roughness());
+      LAMBENT_CHECK(read_specular());
+      read_ior();
+    }
     LAMBENT_CHECK(read_emission());
-    LAMBENT_CHECK(read_specular());
     LAMBENT_CHECK(read_transmission());
     read_volume();
     LAMBENT_CHECK(read_clearcoat(options));
@@ -36,9 +43,6 @@ class MaterialReader {
     }
     LAMBENT_CHECK(read_alpha());
     material_.unlit = find_extension(source_.extensions, "KHR_materials_unlit") != nullptr;
-    if (const auto* ior = find_extension(source_.extensions, "KHR_materials_ior")) {
-      read_ior(*ior);
-    }
     // occlusionTexture is ignored on purpose, since global illumination computes occlusion
     return std::move(material_);
   }
@@ -53,27 +57,33 @@ class MaterialReader {
   }
 
   // A textureInfo inside an extension, which tinygltf leaves unparsed.
-  Expected<void> take(const tinygltf::Value& extension, const char* key, bool srgb,
-                      TextureView& view) {
-    if (!extension.Has(key)) return {};
-    const tinygltf::Value& source = extension.Get(key);
+  static tinygltf::TextureInfo info_of(const tinygltf::Value& extension, const char* key) {
     tinygltf::TextureInfo info;
+    if (!extension.Has(key)) return info;
+    const tinygltf::Value& source = extension.Get(key);
     info.index = integer_or(source, "index", -1);
     info.texCoord = integer_or(source, "texCoord", 0);
     if (source.Has("extensions")) {
       info.extensions = source.Get("extensions").Get<tinygltf::Value::Object>();
     }
-    return take(info, srgb, view);
+    return info;
+  }
+  Expected<void> take(const tinygltf::Value& extension, const char* key, bool srgb,
+                      TextureView& view) {
+    return take(info_of(extension, key), srgb, view);
+  }
+
+  void set_base_color(int channel, double value) {
+    const auto factor = static_cast<float>(value);
+    material_.base_color[channel] = std::clamp(factor, 0.0f, 1.0f);
+    document_.repaired("base colors were clamped to 0 to 1",
+                       factor == material_.base_color[channel] ? 0 : 1, place_);
   }
 
   Expected<void> read_metallic_roughness() {
     const tinygltf::PbrMetallicRoughness& pbr = source_.pbrMetallicRoughness;
     for (int k = 0; k < 4 && k < static_cast<int>(pbr.baseColorFactor.size()); ++k) {
-      const auto factor = static_cast<float>(pbr.baseColorFactor[k]);
-      material_.base_color[k] = std::clamp(factor, 0.0f, 1.0f);
-      if (factor != material_.base_color[k]) {
-        document_.repaired("base colors were clamped to 0 to 1", 1, place_);
-      }
+      set_base_color(k, pbr.baseColorFactor[k]);
     }
     material_.metallic = static_cast<float>(pbr.metallicFactor);
     material_.roughness = static_cast<float>(pbr.roughnessFactor);
@@ -114,6 +124,40 @@ class MaterialReader {
     }
     LAMBENT_CHECK(take(*specular, "specularTexture", kData, material_.specular_texture));
     return take(*specular, "specularColorTexture", kColor, material_.specular_color_texture);
+  }
+
+  // An older model of materials: a dielectric whose reflectance at normal incidence is the specular
+  // color, which is what an index of refraction without bound makes of it.
+  Expected<void> read_specular_glossiness(const tinygltf::Value& model) {
+    material_.metallic = 0.0f;
+    material_.ior = kMaxFactor;
+    if (model.Has("diffuseFactor")) {
+      const tinygltf::Value& diffuse = model.Get("diffuseFactor");
+      for (int k = 0; k < 4; ++k) set_base_color(k, diffuse.Get(k).GetNumberAsDouble());
+    }
+    if (model.Has("specularFactor")) {
+      const tinygltf::Value& color = model.Get("specularFactor");
+      for (int k = 0; k < 3; ++k) {
+        const auto factor = static_cast<float>(color.Get(k).GetNumberAsDouble());
+        material_.specular_color[k] = std::clamp(factor, 0.0f, 1.0f);
+      }
+    }
+    LAMBENT_CHECK(take(model, "diffuseTexture", kColor, material_.base_color_texture));
+    LAMBENT_CHECK(
+        take(model, "specularGlossinessTexture", kColor, material_.specular_color_texture));
+    return read_glossiness(model);
+  }
+
+  Expected<void> read_glossiness(const tinygltf::Value& model) {
+    const auto factor = static_cast<float>(number_or(model, "glossinessFactor", 1.0));
+    material_.roughness = 1.0f - factor;
+    const tinygltf::TextureInfo info = info_of(model, "specularGlossinessTexture");
+    if (info.index < 0 || factor <= 0.0f) return {};
+    LAMBENT_TRY(made, textures_.view_of_glossiness(info.index, info.texCoord, info.extensions,
+                                                   factor, place_));
+    material_.metallic_roughness_texture = made;
+    if (made.texture >= 0) material_.roughness = 1.0f;
+    return {};
   }
 
   Expected<void> read_transmission() {
@@ -190,10 +234,16 @@ class MaterialReader {
     return {};
   }
 
-  void read_ior(const tinygltf::Value& extension) {
-    material_.ior = static_cast<float>(number_or(extension, "ior", material_.ior));
+  void read_ior() {
+    const auto* extension = find_extension(source_.extensions, "KHR_materials_ior");
+    if (!extension) return;
+    material_.ior = static_cast<float>(number_or(*extension, "ior", material_.ior));
     if (material_.ior >= 1.0f) return;
-    // 0 means F0 = 1 "for backwards compatibility", for which there is no physical index
+    // 0 asks for F0 = 1, as materials converted from specular-glossiness do
+    if (material_.ior == 0.0f) {
+      material_.ior = kMaxFactor;
+      return;
+    }
     document_.repaired("indices of refraction below 1 were set to 1", 1, place_);
     material_.ior = 1.0f;
   }

@@ -36,36 +36,27 @@ class PrimitiveReader {
 
   const std::string& place() const { return place_; }
 
-  // An attribute with one element per vertex; empty if the primitive lacks it.
-  Expected<Elements> attribute(const std::string& name) const {
-    Elements elements;
-    if (draco_ && draco_->attributes.contains(name)) {
-      elements = draco_->attributes.at(name);
-    } else if (const auto found = source_.attributes.find(name);
-               found != source_.attributes.end()) {
-      LAMBENT_TRY(decoded, read_elements(*document_, found->second));
-      elements = std::move(decoded);
-    } else {
-      return elements;
-    }
-    if (vertices_ != 0 && elements.size() != vertices_) {
-      return document_->fail_at(place_ + ".attributes." + name,
-                                "has " + std::to_string(elements.size()) + " elements for " +
-                                    std::to_string(vertices_) + " vertices");
-    }
-    return elements;
+  // An attribute with one element a vertex, of one of two numbers of components; without elements
+  // where the primitive lacks it. Numbers that are not finite are an error.
+  Expected<Elements> attribute(const std::string& name, int components, int alternative) const {
+    LAMBENT_TRY(elements, raw_attribute(name, components, alternative));
+    LAMBENT_CHECK(check_finite(*document_, elements, place_of(name)));
+    return std::move(elements);
   }
 
-  // An attribute whose elements must have one of two numbers of components.
-  Expected<Elements> attribute(const std::string& name, int components, int alternative) const {
-    LAMBENT_TRY(elements, attribute(name));
-    const bool fits = elements.components == components || elements.components == alternative;
-    if (elements.size() != 0 && !fits) {
-      return document_->fail_at(place_ + ".attributes." + name,
-                                "has " + std::to_string(elements.components) +
-                                    " components where " + std::to_string(components) +
-                                    " are needed");
+  // The same of an attribute that surfaces can do without. Exporters that divide by 0 write some
+  // elements as NaN: all numbers of such an element become `stand_in`.
+  Expected<Elements> attribute_or(const std::string& name, int components, int alternative,
+                                  float stand_in, Document& document) const {
+    LAMBENT_TRY(elements, raw_attribute(name, components, alternative));
+    std::size_t replaced = 0;
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      if (is_finite(elements, i)) continue;
+      std::fill_n(elements.values.data() + i * elements.components, elements.components, stand_in);
+      ++replaced;
     }
+    document.repaired("attributes of vertices were not finite and were replaced", replaced,
+                      place_of(name));
     return std::move(elements);
   }
 
@@ -88,6 +79,38 @@ class PrimitiveReader {
   }
 
  private:
+  std::string place_of(const std::string& attribute) const {
+    const bool streamed = draco_ && draco_->attributes.contains(attribute);
+    const auto found = source_.attributes.find(attribute);
+    if (streamed || found == source_.attributes.end()) return place_ + ".attributes." + attribute;
+    return entry("accessors", found->second);
+  }
+
+  Expected<Elements> raw_attribute(const std::string& name, int components, int alternative) const {
+    Elements elements;
+    if (draco_ && draco_->attributes.contains(name)) {
+      elements = draco_->attributes.at(name);
+    } else if (const auto found = source_.attributes.find(name);
+               found != source_.attributes.end()) {
+      LAMBENT_TRY(decoded, read_raw_elements(*document_, found->second));
+      elements = std::move(decoded);
+    } else {
+      return elements;
+    }
+    const std::string place = place_ + ".attributes." + name;
+    if (vertices_ != 0 && elements.size() != vertices_) {
+      return document_->fail_at(place, "has " + std::to_string(elements.size()) + " elements for " +
+                                           std::to_string(vertices_) + " vertices");
+    }
+    const bool fits = elements.components == components || elements.components == alternative;
+    if (elements.size() != 0 && !fits) {
+      return document_->fail_at(place, "has " + std::to_string(elements.components) +
+                                           " components where " + std::to_string(components) +
+                                           " are needed");
+    }
+    return elements;
+  }
+
   PrimitiveReader(const Document& document, int mesh, int primitive)
       : document_(&document),
         mesh_(mesh),
@@ -157,20 +180,23 @@ std::vector<glm::vec4> colors_of(const Elements& elements) {
   return colors;
 }
 
-Expected<void> read_vertices(PrimitiveReader& reader, Mesh& mesh) {
+// What a vertex lacks becomes 0, which is repaired later as what has no direction is, or white.
+constexpr float kNoValue = 0.0f, kWhite = 1.0f;
+
+Expected<void> read_vertices(Document& document, PrimitiveReader& reader, Mesh& mesh) {
   LAMBENT_TRY(positions, reader.attribute("POSITION", 3, 3));
   mesh.positions = vectors_of<glm::vec3>(positions);
   if (mesh.positions.empty()) return {};
   reader.expect_vertices(mesh.positions.size());
-  LAMBENT_TRY(normals, reader.attribute("NORMAL", 3, 3));
+  LAMBENT_TRY(normals, reader.attribute_or("NORMAL", 3, 3, kNoValue, document));
   mesh.normals = vectors_of<glm::vec3>(normals);
-  LAMBENT_TRY(tangents, reader.attribute("TANGENT", 4, 4));
+  LAMBENT_TRY(tangents, reader.attribute_or("TANGENT", 4, 4, kNoValue, document));
   mesh.tangents = vectors_of<glm::vec4>(tangents);
-  LAMBENT_TRY(uv0, reader.attribute("TEXCOORD_0", 2, 2));
+  LAMBENT_TRY(uv0, reader.attribute_or("TEXCOORD_0", 2, 2, kNoValue, document));
   mesh.uvs[0] = vectors_of<glm::vec2>(uv0);
-  LAMBENT_TRY(uv1, reader.attribute("TEXCOORD_1", 2, 2));
+  LAMBENT_TRY(uv1, reader.attribute_or("TEXCOORD_1", 2, 2, kNoValue, document));
   mesh.uvs[1] = vectors_of<glm::vec2>(uv1);
-  LAMBENT_TRY(colors, reader.attribute("COLOR_0", 4, 3));
+  LAMBENT_TRY(colors, reader.attribute_or("COLOR_0", 4, 3, kWhite, document));
   mesh.colors = colors_of(colors);
   return {};
 }
@@ -321,7 +347,7 @@ Expected<std::optional<ImportedMesh>> import_primitive(Document& document, int m
   Mesh& mesh = imported.mesh;
   mesh.name = source_mesh.name;
   mesh.material = source.material;
-  LAMBENT_CHECK(read_vertices(reader, mesh));
+  LAMBENT_CHECK(read_vertices(document, reader, mesh));
   if (mesh.positions.empty()) {
     document.repaired("primitives without positions were left out", 1, place);
     return std::nullopt;

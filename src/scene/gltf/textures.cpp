@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "scene/image_decode.h"
 #include "scene/texture.h"
@@ -37,7 +38,21 @@ void apply_transform(const tinygltf::Value& transform, TextureView& view) {
   view.uv_rotation = static_cast<float>(number_or(transform, "rotation", 0.0));
 }
 
-Expected<Texture> decode_use(const Document& document, int image, bool srgb) {
+// Turns glossiness, in alpha, into the green of a metallic-roughness texture.
+void make_roughness(float glossiness_factor, TextureLevel& level) {
+  constexpr float kLargest = 255.0f;
+  for (std::size_t i = 0; i + 3 < level.rgba.size(); i += 4) {
+    const float glossiness = glossiness_factor * static_cast<float>(level.rgba[i + 3]);
+    const auto roughness = static_cast<std::uint8_t>(std::lround(kLargest - glossiness));
+    level.rgba[i] = level.rgba[i + 2] = 0;
+    level.rgba[i + 1] = roughness;
+    level.rgba[i + 3] = 255;
+  }
+}
+
+// `glossiness_factor` is 0 where the image's colors are read as they are.
+Expected<Texture> decode_use(const Document& document, int image, bool srgb,
+                             float glossiness_factor) {
   const ImageSource& source = document.images[image];
   const std::string place = entry("images", image);
   Texture texture;
@@ -60,6 +75,7 @@ Expected<Texture> decode_use(const Document& document, int image, bool srgb) {
   }
   LAMBENT_TRY(level, decode_image(bytes, document.file, place));
   texture.levels.push_back(std::move(level));
+  if (glossiness_factor > 0.0f) make_roughness(glossiness_factor, texture.levels.front());
   build_mips(texture);
   return texture;
 }
@@ -91,6 +107,18 @@ std::string users_of(const std::vector<Material>& materials, Reads reads_texture
 
 Expected<TextureView> TextureLibrary::view(int texture, int tex_coord,
                                            const tinygltf::ExtensionMap& extensions, bool srgb,
+                                           const std::string& place) {
+  return view(texture, tex_coord, extensions, Use{-1, srgb, 0.0f}, place);
+}
+
+Expected<TextureView> TextureLibrary::view_of_glossiness(int texture, int tex_coord,
+                                                         const tinygltf::ExtensionMap& extensions,
+                                                         float factor, const std::string& place) {
+  return view(texture, tex_coord, extensions, Use{-1, false, factor}, place);
+}
+
+Expected<TextureView> TextureLibrary::view(int texture, int tex_coord,
+                                           const tinygltf::ExtensionMap& extensions, Use use,
                                            const std::string& place) {
   const tinygltf::Texture& source = document_->model.textures[texture];
   const int image = image_of(source);
@@ -124,19 +152,17 @@ Expected<TextureView> TextureLibrary::view(int texture, int tex_coord,
   }
 
   // Share the texture with an earlier use of the image of the same kind
-  const auto same = [image, srgb](const Use& use) {
-    return use.image == image && use.srgb == srgb;
-  };
-  const auto found = std::find_if(uses_.begin(), uses_.end(), same);
+  use.image = image;
+  const auto found = std::find(uses_.begin(), uses_.end(), use);
   view.texture = static_cast<int>(found - uses_.begin());
-  if (found == uses_.end()) uses_.push_back({image, srgb});
+  if (found == uses_.end()) uses_.push_back(use);
   return view;
 }
 
 std::vector<Texture> TextureLibrary::decode(std::vector<Material>& materials) {
   std::vector<Expected<Texture>> decoded(uses_.size(), Texture{});
   tbb::parallel_for(std::size_t{0}, uses_.size(), [&](std::size_t i) {
-    decoded[i] = decode_use(*document_, uses_[i].image, uses_[i].srgb);
+    decoded[i] = decode_use(*document_, uses_[i].image, uses_[i].srgb, uses_[i].glossiness);
   });
   warn_of_missing(decoded, materials);
 

@@ -20,6 +20,12 @@ class TextureLibrary {
   Expected<TextureView> view(int texture, int tex_coord, const tinygltf::ExtensionMap& extensions,
                              bool srgb, const std::string& place);
 
+  /// The same of the alpha of a texture of glossiness, read as a metallic-roughness texture of
+  /// roughness 1 - `factor` * alpha, whose metal is to be multiplied with 0.
+  Expected<TextureView> view_of_glossiness(int texture, int tex_coord,
+                                           const tinygltf::ExtensionMap& extensions, float factor,
+                                           const std::string& place);
+
   /// Decodes all images in use, with MIP levels, in parallel, and updates the views of `materials`
   /// to refer to the result. One warning names the images that cannot be read. Materials then use
   /// their factors alone, except that without its map, emission is 0, since a map restricts it to
@@ -30,7 +36,12 @@ class TextureLibrary {
   struct Use {
     int image;
     bool srgb;
+    float glossiness;  ///< Its factor, above 0, where roughness is made of alpha; else 0.
+    bool operator==(const Use&) const = default;
   };
+  /// How a textureInfo reads its texture; `use` tells what of. Its image is filled in here.
+  Expected<TextureView> view(int texture, int tex_coord, const tinygltf::ExtensionMap& extensions,
+                             Use use, const std::string& place);
   void warn_of_missing(const std::vector<Expected<Texture>>& decoded,
                        const std::vector<Material>& materials);
   Document* document_;

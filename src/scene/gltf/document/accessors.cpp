@@ -205,7 +205,22 @@ Expected<void> for_each_sparse(const Document& document, int index, const Layout
 
 }  // namespace
 
-Expected<Elements> read_elements(const Document& document, int index) {
+bool is_finite(const Elements& elements, std::size_t element) {
+  const float* first = elements[element];
+  return std::all_of(first, first + elements.components, [](float v) { return std::isfinite(v); });
+}
+
+Expected<void> check_finite(const Document& document, const Elements& elements,
+                            const std::string& place) {
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (is_finite(elements, i)) continue;
+    return document.fail_at(place,
+                            "element " + std::to_string(i) + " holds a number that is not finite");
+  }
+  return {};
+}
+
+Expected<Elements> read_raw_elements(const Document& document, int index) {
   const tinygltf::Accessor& accessor = document.model.accessors[index];
   LAMBENT_TRY(layout, layout_of(document, index));
   LAMBENT_TRY(dense, dense_elements(document, index, layout));
@@ -226,14 +241,13 @@ Expected<Elements> read_elements(const Document& document, int index) {
     for (std::size_t i = 0; i < dense.count; ++i) decode(i, dense[i]);
   }
   LAMBENT_CHECK(for_each_sparse(document, index, layout, decode));
-
-  for (std::size_t i = 0; i < elements.values.size(); ++i) {
-    if (std::isfinite(elements.values[i])) continue;
-    return document.fail_at(entry("accessors", index), "element " +
-                                                           std::to_string(i / elements.components) +
-                                                           " holds a number that is not finite");
-  }
   return elements;
+}
+
+Expected<Elements> read_elements(const Document& document, int index) {
+  LAMBENT_TRY(elements, read_raw_elements(document, index));
+  LAMBENT_CHECK(check_finite(document, elements, entry("accessors", index)));
+  return std::move(elements);
 }
 
 Expected<Elements> read_elements(const Document& document, int index, int components) {

@@ -16,7 +16,18 @@ struct Elements {
   const float* operator[](std::size_t i) const { return values.data() + i * components; }
 };
 
-/// The elements of an accessor. Fails where it reaches beyond its buffer, and on values that are
+/// Whether all numbers of an element are finite.
+bool is_finite(const Elements& elements, std::size_t element);
+
+/// The elements of an accessor, whose numbers need not be finite. Fails where it reaches beyond its
+/// buffer.
+Expected<Elements> read_raw_elements(const Document& document, int accessor);
+
+/// Fails where an element holds a number that is not finite. `place` is that of the elements.
+Expected<void> check_finite(const Document& document, const Elements& elements,
+                            const std::string& place);
+
+/// The elements of an accessor. Fails where it reaches beyond its buffer, and on numbers that are
 /// not finite.
 Expected<Elements> read_elements(const Document& document, int accessor);
 

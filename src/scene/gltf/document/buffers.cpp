@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the bytes of URIs and buffer views.
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <string_view>
@@ -81,13 +82,25 @@ bool has_scheme(std::string_view uri) {
   return true;
 }
 
+// The file of a decoded path. Exporters on Windows write "textures\\wood.png": where there is no
+// such file, backslashes part folders.
+std::string file_of(const std::string& folder, std::string path) {
+  const std::string as_written = (std::filesystem::path(folder) / path).string();
+  std::error_code error;
+  if (path.find('\\') == std::string::npos || std::filesystem::exists(as_written, error)) {
+    return as_written;
+  }
+  std::replace(path.begin(), path.end(), '\\', '/');
+  return (std::filesystem::path(folder) / path).string();
+}
+
 }  // namespace
 
 std::string path_of_uri(const std::string& folder, const std::string& uri) {
   if (has_scheme(uri) || uri.starts_with("//")) return {};
   const std::string path = decode_percent(uri);
   if (path.empty() || path.find('\0') != std::string::npos) return {};
-  return (std::filesystem::path(folder) / path).string();
+  return file_of(folder, path);
 }
 
 Expected<Bytes> read_uri(const Document& document, const std::string& uri,
@@ -119,7 +132,7 @@ Expected<Bytes> read_uri(const Document& document, const std::string& uri,
     return document.fail_at(place,
                             "the URI " + shown + " refers to a file, but this scene has none");
   }
-  const std::string full = (std::filesystem::path(document.folder) / path).string();
+  const std::string full = file_of(document.folder, path);
   const Expected<std::vector<std::byte>> content = read_file(full);
   if (!content) return document.fail_at(place + " (" + full + ")", content.error().cause);
   const auto* begin = reinterpret_cast<const std::uint8_t*>(content->data());

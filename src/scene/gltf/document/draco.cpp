@@ -4,7 +4,7 @@
 
 #include <draco/compression/decode.h>
 
-#include <cmath>
+#include <algorithm>
 #include <memory>
 
 namespace lambent::gltf {
@@ -43,8 +43,7 @@ bool convert(const draco::PointAttribute& source, std::uint32_t points, bool nor
     }
     for (int k = 0; k < elements.components; ++k) {
       const float number = static_cast<float>(values[k]) / divisor;
-      if (!std::isfinite(number)) return false;
-      elements.values.push_back(std::max(number, normalized ? -1.0f : number));
+      elements.values.push_back(normalized ? std::max(number, -1.0f) : number);
     }
   }
   return true;

@@ -25,6 +25,7 @@ constexpr Extension kKnown[] = {
     {"KHR_materials_emissive_strength",     true,  nullptr},
     {"KHR_materials_ior",                   true,  nullptr},
     {"KHR_materials_iridescence",           false, kIgnoredLobe},
+    {"KHR_materials_pbrSpecularGlossiness", true,  nullptr},
     {"KHR_materials_sheen",                 true,  nullptr},
     {"KHR_materials_specular",              true,  nullptr},
     {"KHR_materials_transmission",          true,  nullptr},
