@@ -12,7 +12,7 @@
 #include "compose/light_history.h"
 #include "compose/motion.h"
 #include "compose/pixel_math.h"
-#include "compose/rsm_frame.h"
+#include "compose/rsm/rsm_frame.h"
 #include "core/parallel.h"
 #include "core/pass_times.h"
 #include "field/field_access.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "compose/frame_vulkan.h"
-#include "compose/rsm_frame.h"
+#include "compose/rsm/rsm_frame.h"
 #include "core/stopwatch.h"
 #include "field/field_access.h"
 #include "field/field_backend.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "compose/rsm_frame.h"
+#include "compose/rsm/rsm_frame.h"
 #include "lambent/world.h"
 #include "raytracing/vulkan/device_world.h"
 #include "raytracing/world_access.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "compose/frame_vulkan.h"
-#include "compose/rsm_frame.h"
+#include "compose/rsm/rsm_frame.h"
 #include "core/stopwatch.h"
 #include "raytracing/camera_rays.h"
 #include "scene/media/media.h"

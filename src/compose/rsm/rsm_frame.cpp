@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compose/rsm_frame.h"
+#include "compose/rsm/rsm_frame.h"
 
 #include <algorithm>
 #include <cassert>
