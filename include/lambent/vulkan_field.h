@@ -41,7 +41,8 @@ struct RecordedFieldSettings {
   /// it may move to where it stands better; 2 to 64, or 0: none moves. Most stand well after
   /// three, those in corners after five. One that moved averages anew.
   int placing_updates = 8;
-  /// Mask of the probes' rays: record_trace meets instances whose mask shares a bit.
+  /// Mask of the probes' rays and of visibility rays: record_trace and record_update meet instances
+  /// whose mask shares a bit.
   std::uint8_t ray_mask = 0xFF;
 };
 
@@ -90,8 +91,9 @@ struct LookupBuffers {
   BufferRange offsets;     ///< One word per probe.
   BufferRange irradiance;  ///< Irradiance tiles, one after the other.
   BufferRange distance;    ///< Distance tiles, one after the other.
-  /// A FieldRecord (field/lookup/field_record.h) that names the four, and the corrections of
-  /// lookups that came with a file: what lambent/shaders/field_lookup.glsl takes.
+  /// A FieldRecord (field/lookup/field_record.h) that names the four, the corrections of lookups
+  /// that came with a file, and which probes see each other: what
+  /// lambent/shaders/field_lookup.glsl takes.
   /// RecordedField::start_from changes what it holds.
   BufferRange record;
 };
@@ -123,8 +125,9 @@ struct LookupBuffers {
 ///                    the lookup buffers, too
 ///   record_trace     reads rays(), ray_launch() and the           ray tracing shaders,
 ///                    structure, writes hits()                     indirect commands
-///   record_update    reads rays() and results(),                  compute shaders, transfer,
-///                    writes the lookup buffers                    indirect commands
+///   record_update    reads rays(), results() and, where           compute shaders, transfer,
+///                    visibility is by rays, the structure,        indirect commands,
+///                    writes the lookup buffers                    ray tracing shaders
 ///   record_maintain  reads rays() and results(), writes states()  compute shaders
 ///
 /// Lookups may run at any time but during record_update, and with cascades during record_rays:
@@ -141,7 +144,7 @@ class RecordedField {
  public:
   /// A field that holds no light yet, for a place of these bounds [m]. Submits to the device's
   /// queue, and waits. Fails on settings out of range, and on those that recorded fields do not
-  /// follow: visibility by rays, counted bounces where not all probes are traced at once.
+  /// follow: counted bounces where not all probes are traced at once.
   /// Throws std::runtime_error where the device's memory runs out.
   static Expected<RecordedField> make(std::shared_ptr<Device> device, const FieldSettings& settings,
                                       const Bounds& bounds,
@@ -183,7 +186,14 @@ class RecordedField {
   /// HitRecord, one a ray, by a ray tracing pipeline of Lambent's. `instance` is the custom index.
   /// Knows no materials: rays stop where triangles are see-through.
   void record_trace(VkCommandBuffer commands, VkAccelerationStructureKHR structure) const;
-  void record_update(VkCommandBuffer commands);
+  /// Where FieldSettings::visibility is hybrid or exact, visibility rays are traced in `structure`,
+  /// by a ray tracing pipeline of Lambent's: between the probes of cells around the update's, and
+  /// from surfels to the probes that they might see. It must be what the probes' rays met, however
+  /// the engine found their hits. As in record_trace, see-through triangles stop rays: leave these
+  /// out by RecordedFieldSettings::ray_mask. Else `structure` is not read. Fails, and records
+  /// nothing, where it is needed and null.
+  Expected<void> record_update(VkCommandBuffer commands,
+                               VkAccelerationStructureKHR structure = VK_NULL_HANDLE);
   void record_maintain(VkCommandBuffer commands) const;
 
   /// Of the update that was planned last, in the same buffers always.
@@ -208,7 +218,7 @@ class RecordedField {
   /// traced but every eighth turn; where the device decides, once in 128 updates or a few more.
   BufferRange states() const;
   /// Grids, offsets, irradiance and distance as storage buffers at bindings 0 to 3, for all stages:
-  /// what lookup.hlsl and lookup.wgsl read.
+  /// what lookup.hlsl and lookup.wgsl read. These see probes by distances.
   VkDescriptorSetLayout lookup_set_layout() const;
   VkDescriptorSet lookup_set() const;
 

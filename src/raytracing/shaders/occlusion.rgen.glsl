@@ -2,26 +2,15 @@
 // Whether each ray meets anything.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_ray_tracing : require
-#include "raytracing/vulkan/trace_arguments.h"
+#include "raytracing/shaders/find_occlusion.glsl"
 
 layout(push_constant, scalar) uniform Push {
   TraceArguments args;
 };
-layout(location = 0) rayPayloadEXT uint occluded;
 
 void main() {
   uint i = gl_LaunchIDEXT.y * gl_LaunchSizeEXT.x + gl_LaunchIDEXT.x;
   if (i >= args.count) return;
   RayRecord ray = args.rays.at[i];
-  occluded = 0u;
-  uint mask = device_mask(ray.mask);
-  if (mask != 0u && ray.t_min <= ray.t_max) {
-    // Until a ray is known to have missed, it has met something: no shader runs at hits
-    occluded = 1u;
-    uint flags = gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT;
-    traceRayEXT(accelerationStructureEXT(args.structure), flags, mask, 0, 0, 0, ray.origin_ws,
-                ray.t_min, ray.direction_ws, min(ray.t_max, kFarthestOfDevices), 0);
-  }
-  args.occluded.at[i] = occluded;
+  args.occluded.at[i] = find_occlusion(args.structure, ray, 0u, device_mask(ray.mask));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the two ray tracing pipelines are told.
+// What the ray tracing pipelines are told.
 #ifndef LAMBENT_RAYTRACING_VULKAN_TRACE_ARGUMENTS_H
 #define LAMBENT_RAYTRACING_VULKAN_TRACE_ARGUMENTS_H
 
@@ -17,6 +17,17 @@ struct TraceArguments {
   SceneArray scene;    ///< Of what is see-through.
   uint count;
   uint to_hits;  ///< Of light that passes: 1: rays end at their hits.
+};
+
+/// Arguments of engine_closest and engine_occlusion, which find in an engine's acceleration
+/// structure the closest hits of rays, and whether rays meet anything.
+struct EngineTraceArguments {
+  uvec2 structure;  ///< Its address, low word first.
+  RayArray rays;
+  HitArray hits;       ///< Of closest hits.
+  UintArray occluded;  ///< Of occlusion: a word a ray, 1 or 0.
+  uint count;
+  uint mask;  ///< Of occlusion: which instances rays meet, in place of their own masks.
 };
 
 /// What a ray's light has become of, as far as it is known.
