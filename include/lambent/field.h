@@ -93,7 +93,8 @@ struct FieldSettings {
   /// none.
   bool corrections = true;
   /// How lookups determine which probes they see: those of surfels and, where a world is given,
-  /// those of queries.
+  /// those of queries. Of fields that engines record those of surfels and, where a shader traces
+  /// rays, the engine's own.
   Visibility visibility = Visibility::moments;
 
   /// The solve for multi-bounce light stops when its estimated relative error falls below this,

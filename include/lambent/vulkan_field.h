@@ -43,7 +43,8 @@ struct RecordedFieldSettings {
   /// none moves. Most are well placed after three, those in corners after five. The averages of a
   /// probe that moved start anew.
   int placing_updates = 8;
-  /// Mask of the probes' rays: in record_trace they hit instances whose mask shares a bit.
+  /// Mask of the probes' rays and of visibility rays: in record_trace and record_update they hit
+  /// instances whose mask shares a bit.
   std::uint8_t ray_mask = 0xFF;
 };
 
@@ -91,9 +92,9 @@ struct LookupBuffers {
   BufferRange offsets;     ///< One word per probe.
   BufferRange irradiance;  ///< Irradiance tiles, one after the other.
   BufferRange distance;    ///< Distance tiles, one after the other.
-  /// A FieldRecord (field/lookup/field_record.h) with the addresses of these four and of the lookup
-  /// corrections from a file, for lambent/shaders/field_lookup.glsl. RecordedField::start_from
-  /// changes its contents.
+  /// A FieldRecord (field/lookup/field_record.h) with the addresses of these four, of the lookup
+  /// corrections from a file, and of the visibility between the probes of cells, for
+  /// lambent/shaders/field_lookup.glsl. RecordedField::start_from changes its contents.
   BufferRange record;
 };
 
@@ -125,8 +126,9 @@ struct LookupBuffers {
 ///                    the lookup buffers, too
 ///   record_trace     reads rays(), ray_launch() and the           ray tracing shaders,
 ///                    structure, writes hits()                     indirect commands
-///   record_update    reads rays() and results(),                  compute shaders, transfer,
-///                    writes the lookup buffers                    indirect commands
+///   record_update    reads rays(), results() and, where           compute shaders, transfer,
+///                    visibility is by rays, the structure,        indirect commands,
+///                    writes the lookup buffers                    ray tracing shaders
 ///   record_maintain  reads rays() and results(), writes states()  compute shaders
 ///
 /// Lookups may run at any time except during record_update and, with cascades, record_rays. A
@@ -141,8 +143,8 @@ struct LookupBuffers {
 class RecordedField {
  public:
   /// A field without light, for a scene of these bounds [m]. Submits to the device's queue, and
-  /// waits. Fails on settings out of range, and on those that recorded fields do not support:
-  /// visibility by rays, and a limit of bounces where not all probes are traced at once.
+  /// waits. Fails on settings out of range, and on those that recorded fields do not support: a
+  /// limit of bounces where not all probes are traced at once.
   /// Throws std::runtime_error where the device's memory runs out.
   static Expected<RecordedField> make(std::shared_ptr<Device> device, const FieldSettings& settings,
                                       const Bounds& bounds,
@@ -185,7 +187,14 @@ class RecordedField {
   /// Writes one HitRecord per ray, by a ray tracing pipeline of Lambent's. `instance` is the custom
   /// index. All triangles count as opaque, since materials are not available here.
   void record_trace(VkCommandBuffer commands, VkAccelerationStructureKHR structure) const;
-  void record_update(VkCommandBuffer commands);
+  /// Where FieldSettings::visibility is hybrid or exact, visibility rays are traced in `structure`,
+  /// by a ray tracing pipeline of Lambent's: between the probes of cells around the update's, and
+  /// from surfels to the probes that they might see. It must be what the probes' rays met, however
+  /// the engine found their hits. As in record_trace, see-through triangles stop rays: leave these
+  /// out by RecordedFieldSettings::ray_mask. Else `structure` is not read. Fails, and records
+  /// nothing, where it is needed and null.
+  Expected<void> record_update(VkCommandBuffer commands,
+                               VkAccelerationStructureKHR structure = VK_NULL_HANDLE);
   void record_maintain(VkCommandBuffer commands) const;
 
   /// Rays and hits of the update that was planned last. The buffers are always the same.
@@ -212,7 +221,7 @@ class RecordedField {
   /// updates.
   BufferRange states() const;
   /// Grids, offsets, irradiance and distance as storage buffers at bindings 0 to 3, for all stages,
-  /// as lookup.hlsl and lookup.wgsl read them.
+  /// as lookup.hlsl and lookup.wgsl read them, whose lookups use distances alone.
   VkDescriptorSetLayout lookup_set_layout() const;
   VkDescriptorSet lookup_set() const;
 

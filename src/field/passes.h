@@ -81,7 +81,7 @@ class FieldPasses {
 /// Runs all passes of an update whose probes the host has placed and chosen.
 void update_probes(FieldPasses& passes);
 /// Traces the last rays of probes again, after edits, and brings their distances and lookups up to
-/// date. The host solves for the light.
+/// date. The host has looked across the cells around them, and solves for the light.
 void retrace_probes(FieldPasses& passes);
 
 // An engine records an update in four parts, in this order, with commands of its own in between.

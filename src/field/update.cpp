@@ -41,23 +41,21 @@ void solve_light(FieldPasses& passes) {
   run(passes, field_pass::kStore, [&] { passes.store(); });
 }
 
+/// Finds which probes see each other, where lookups ask.
+void look_across_cells(FieldPasses& passes) {
+  if (passes.settings().visibility != Visibility::hybrid) return;
+  run(passes, field_pass::kVisibility, [&] { passes.visibility(); });
+}
+
 /// Runs all passes from surfels to stored light.
 void light_probes(FieldPasses& passes) {
   run(passes, field_pass::kBlendDistances, [&] { passes.blend_distances(); });
-  if (passes.settings().visibility == Visibility::hybrid) {
-    run(passes, field_pass::kVisibility, [&] { passes.visibility(); });
-  }
+  look_across_cells(passes);
   if (passes.learns()) {
     run(passes, field_pass::kCorrections, [&] { passes.corrections(); });
   }
   run(passes, field_pass::kLookups, [&] { passes.lookups(); });
   solve_light(passes);
-}
-
-/// Brings distances and lookups up to date with surfels that were traced again.
-void move_probes(FieldPasses& passes) {
-  run(passes, field_pass::kBlendDistances, [&] { passes.move_distances(); });
-  run(passes, field_pass::kLookups, [&] { passes.lookups(); });
 }
 
 }  // namespace
@@ -70,7 +68,8 @@ void update_probes(FieldPasses& passes) {
 void retrace_probes(FieldPasses& passes) {
   run(passes, field_pass::kEdits, [&] { passes.keep_history(); });
   find_surfels(passes);
-  move_probes(passes);
+  run(passes, field_pass::kBlendDistances, [&] { passes.move_distances(); });
+  run(passes, field_pass::kLookups, [&] { passes.lookups(); });
 }
 
 void choose_rays(FieldPasses& passes) {
@@ -90,7 +89,9 @@ void follow_hits(FieldPasses& passes) {
 void follow_retraced_hits(FieldPasses& passes) {
   run(passes, field_pass::kEdits, [&] { passes.keep_history(); });
   run(passes, field_pass::kShade, [&] { passes.shade(0); });
-  move_probes(passes);
+  run(passes, field_pass::kBlendDistances, [&] { passes.move_distances(); });
+  look_across_cells(passes);
+  run(passes, field_pass::kLookups, [&] { passes.lookups(); });
   solve_light(passes);
 }
 

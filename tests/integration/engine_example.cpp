@@ -53,6 +53,7 @@ int run(const std::string& shader_folder) {
   settings.cascades = 2;
   settings.probe_count = glm::ivec3(8);
   settings.probe_spacing = 0.4f;
+  settings.visibility = lambent::Visibility::hybrid;
   lambent::vulkan::RecordedFieldSettings recorded;
   recorded.frames_in_flight = Engine::kFramesInFlight;
   auto field = lambent::vulkan::RecordedField::make(*device, settings, room.bounds, recorded);
@@ -92,7 +93,8 @@ int run(const std::string& shader_folder) {
                                     room.lamp_intensity,
                                     update.rays};
     engine.dispatch(commands, shade, shading, update.rays);
-    field->record_update(commands);
+    const auto solved = field->record_update(commands, structure);
+    if (!solved) return std::fprintf(stderr, "%s\n", solved.error().message().c_str()), 1;
     field->record_maintain(commands);
     const LookArguments looking = {field->lookup_buffers().record.address, points.address,
                                    found.address, count};

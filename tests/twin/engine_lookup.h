@@ -15,5 +15,11 @@ struct EngineLookupArguments {
   uint unused;
 };
 
+/// The same for a lookup that traces rays in the engine's structure.
+struct EngineLookupByRaysArguments {
+  EngineLookupArguments lookup;
+  uvec2 structure;  ///< Its address, low word first.
+};
+
 LAMBENT_END
 #endif

@@ -38,8 +38,9 @@ class EngineLookup : public test::OnDevice {
     const FieldRecord field = {
         {{grids.address()}, {offsets.address()}, {light.address()}, {far.address()}},
         {},
+        {},
         store.volumes(),
-        0};
+        kVisibilityMoments};
     const auto count = static_cast<std::uint32_t>(queries.size());
     const EngineLookupArguments arguments = {
         field, {asked.address()}, {found.address()}, count, 0u};

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "twin/engine_structure.h"
 #include "twin/recorded_field.h"
 
 namespace lambent {
@@ -53,11 +54,17 @@ TEST_F(PassOrder, OfAnUpdateIsTheSameOnTheProcessorAndOnADevice) {
   }
 }
 
-TEST_F(PassOrder, OfARecordedUpdateIsThatOfTheProcessors) {
-  RecordedField field = make(recorded_settings(), {.frames_in_flight = 1});
-  update(field);
+class RecordedPassOrder : public PassOrder, public testing::WithParamInterface<Visibility> {};
+
+TEST_P(RecordedPassOrder, IsThatOfTheProcessors) {
+  FieldSettings settings = recorded_settings();
+  settings.visibility = GetParam();
+  const test::EngineStructure structure(device(), cornell().scene);
+  const test::HostEngine engine = {.structure = structure.handle()};
+  RecordedField field = make(settings, {.frames_in_flight = 1});
+  update(field, {}, engine);
   field.plan();
-  Names expected = from("schedule", passes_in(cornell().world, recorded_settings()));
+  Names expected = from("schedule", passes_in(cornell().world, settings));
   // The host plays the engine here, and has its own way to find hits
   std::erase(expected, "trace");
   EXPECT_EQ(names_of(field.pass_times()), expected);
@@ -66,7 +73,7 @@ TEST_F(PassOrder, OfARecordedUpdateIsThatOfTheProcessors) {
   // blended
   WorldChanges edits;
   edits.emission = true;
-  update(field, {.changes = std::span(&edits, 1)});
+  update(field, {.changes = std::span(&edits, 1)}, engine);
   field.plan().value();
   expected.insert(expected.begin() + 1, "edits");
   EXPECT_EQ(names_of(field.pass_times()), expected);
@@ -75,6 +82,9 @@ TEST_F(PassOrder, OfARecordedUpdateIsThatOfTheProcessors) {
   field.plan();
   EXPECT_TRUE(field.pass_times().empty());
 }
+
+INSTANTIATE_TEST_SUITE_P(Modes, RecordedPassOrder,
+                         testing::Values(Visibility::moments, Visibility::hybrid));
 
 }  // namespace
 }  // namespace lambent

@@ -49,6 +49,13 @@ inline RayResult ray_result(const Ray& ray, const Hit& hit, const ShadedHit& sha
                          shaded.direct_irradiance, vec3(0.0f));
 }
 
+/// What the engine has that the host plays.
+struct HostEngine {
+  const World& world = cornell().world;  ///< In which the host traces and shades.
+  const Scene& scene = cornell().scene;  ///< That world's; says which sides of it are solid.
+  VkAccelerationStructureKHR structure = VK_NULL_HANDLE;  ///< For visibility rays.
+};
+
 class RecordedFieldTest : public OnDevice {
  protected:
   static RecordedField make(const FieldSettings& settings, const RecordedFieldSettings& recorded) {
@@ -72,6 +79,11 @@ class RecordedFieldTest : public OnDevice {
   /// An update, shaded by the host as the processor's field would.
   static void update(RecordedField& field, const vulkan::UpdatePlan& plan = {},
                      const World& world = cornell().world) {
+    update(field, plan, HostEngine{world});
+  }
+  static void update(RecordedField& field, const vulkan::UpdatePlan& plan,
+                     const HostEngine& engine) {
+    const World& world = engine.world;
     // Rays that are traced again are shaded with the random numbers of the update that drew them
     static std::map<const RecordedField*, std::uint32_t> drawn_in;
     std::uint32_t number = field.updates();
@@ -81,7 +93,7 @@ class RecordedFieldTest : public OnDevice {
     device().run([&](vulkan::Recorder& to) { field.record_rays(to.commands()); });
     const auto records = download<RayRecord>(field.rays());
     const RaySet set(field.settings(), static_cast<int>(planned.rays_per_probe), number);
-    const SolidSides sides = solid_sides_by_winding(cornell().scene);
+    const SolidSides sides = solid_sides_by_winding(engine.scene);
     const ShadeHitsSettings shading = surfel_shading(field.settings(), set, &sides);
     const Buffer results(device(), planned.rays * sizeof(RayResult), Memory::upload, "results");
     std::vector<Ray> rays;
@@ -106,7 +118,7 @@ class RecordedFieldTest : public OnDevice {
     }
     device().run([&](vulkan::Recorder& to) {
       copy(to, range(results), field.results());
-      field.record_update(to.commands());
+      EXPECT_TRUE(field.record_update(to.commands(), engine.structure));
       field.record_maintain(to.commands());
     });
   }

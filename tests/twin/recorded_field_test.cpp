@@ -119,9 +119,6 @@ TEST_F(RecordedFieldTest, RefusesWhatItCannotDo) {
   settings.max_bounces = 2;
   EXPECT_TRUE(refused(settings, {.rays_per_update = 10000}));
   EXPECT_TRUE(refused(settings, {.probes_per_update = 8}));
-  settings = recorded_settings();
-  settings.visibility = Visibility::exact;
-  EXPECT_TRUE(refused(settings, {}));
 }
 
 TEST_F(RecordedFieldTest, RefusesAPlanOutOfRangeAndBeginsNothing) {

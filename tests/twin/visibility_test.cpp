@@ -4,12 +4,15 @@
 
 #include "field/field_access.h"
 #include "field/lookup/visibility.h"
+#include "field/lookup/visibility_math.h"
 #include "field_update_cpu.h"
 #include "raytracing/vulkan/device_world.h"
 #include "raytracing/world_access.h"
+#include "shaders/copy_words_comp.h"
 #include "shared/random.h"
 #include "support/random_store.h"
 #include "support/vulkan_device.h"
+#include "twin/copy_words.h"
 
 namespace lambent {
 namespace {
@@ -139,6 +142,44 @@ TEST_P(FieldSights, AnswerQueriesAsOnTheProcessor) {
   }
   EXPECT_LE(static_cast<double>(differ), kTolerance * static_cast<double>(queries.size()));
 }
+
+class CellsAround : public test::OnDevice, public testing::WithParamInterface<SightCase> {};
+
+TEST_P(CellsAround, AreThoseThatTheHostWouldList) {
+  const Sighted twins(GetParam(), shared_device());
+  const ProbeStore& store = twins.update.store;
+  std::vector<int> some;
+  for (int probe = 3; probe < store.probes(); probe += 17) some.push_back(probe);
+  CellVisibility expected(store.probes());
+  const std::vector<int> cells = cells_around(store, some);
+  expected.update(tracer_of(twins.stage.world), store, cells);
+
+  FieldResources field(device(), twins.update.settings, store);
+  field.write_store(store);
+  field.write_surfels(twins.update.all, twins.update.traces);
+  field.reserve_visibility_around();
+  const DeviceProbes list = field.list(some);
+  const auto words = static_cast<std::uint32_t>(2 * store.probes());
+  const vulkan::Buffer found(device(), words * sizeof(uint), vulkan::Memory::device, "found");
+  const vulkan::Kernel copy(device(), shaders::copy_words_comp(), "copy words");
+  twins.run([&](vulkan::Recorder& to, const DeviceTracer& tracer) {
+    field.record_visibility_around(to, tracer, list);
+    to.run(copy, CopyWordsArguments{field.cell_visibility(), {found.address()}, words, 0u}, words);
+  });
+  const auto bits = vulkan::download<uint>(device(), found);
+  std::size_t differ = 0, hidden = 0;
+  for (int probe = 0; probe < store.probes(); ++probe) {
+    const uvec2 of_cell = expected.of_cell(probe);
+    differ += uvec2(bits[2 * probe], bits[2 * probe + 1]) != of_cell ? 1 : 0;
+    hidden += of_cell != all_visible() ? 1 : 0;
+  }
+  EXPECT_LE(static_cast<double>(differ), kTolerance * static_cast<double>(cells.size()));
+  EXPECT_GT(hidden, some.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, CellsAround,
+                         testing::Values(SightCase{Visibility::hybrid, 0},
+                                         SightCase{Visibility::hybrid, 3}));
 
 INSTANTIATE_TEST_SUITE_P(Modes, FieldSights,
                          testing::Values(SightCase{Visibility::hybrid, 0},

@@ -71,6 +71,18 @@ TEST(FieldPassOrder, LooksAcrossCellsForHybridVisibilityAlone) {
   }
 }
 
+TEST(FieldPassOrder, LooksAcrossCellsAfterEditsWhereNoHostHasDoneSo) {
+  Log log(Visibility::hybrid);
+  follow_retraced_hits(log);
+  EXPECT_EQ(log.done, (Names{"keep_history", "shade0", "move_distances", "visibility", "lookups",
+                             "solve", "variability", "store"}));
+  EXPECT_EQ(log.named, (Names{"edits", "shade", "blend_distances", "visibility", "lookups", "solve",
+                              "variability", "store"}));
+  Log of_host(Visibility::hybrid);
+  retrace_probes(of_host);
+  EXPECT_EQ(of_host.done, (Names{"keep_history", "trace0", "shade0", "move_distances", "lookups"}));
+}
+
 TEST(FieldPassOrder, LearnsCorrectionsOnlyWhereTheExecutorDoes) {
   Log log;
   log.learning = false;

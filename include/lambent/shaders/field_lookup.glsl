@@ -3,7 +3,18 @@
 //   vec3 field_irradiance(FieldRecord field, vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws)
 // returns the indirect irradiance at a point [W/m^2]. The record is plain data, and comes in push
 // constants or in any buffer of scalar layout. A shader defines the settings of the field that
-// differ from the defaults before it includes this file.
+// differ from the defaults before it includes this file. It finds by the probes' distances which
+// probes a point sees.
+//
+// A shader that can trace rays may see probes as FieldSettings::visibility says. Before it includes
+// this file, it defines LAMBENT_VISIBILITY_RAYS and
+//   bool field_occluded(vec3 origin_ws, vec3 direction_ws, float distance)
+// which tells whether a ray meets anything nearer than `distance` [m], by a ray query or a pipeline
+// of rays. There is then a second lookup beside the first:
+//   vec3 field_irradiance_by_rays(FieldRecord field, vec3 position_ws, vec3 normal_ws,
+//                                 vec3 to_viewer_ws)
+// Of fields of hybrid visibility few points ask for a ray; of exact visibility, each point asks for
+// up to eight a volume. Of all other fields both lookups are the same.
 #ifndef LAMBENT_SHADERS_FIELD_LOOKUP_GLSL
 #define LAMBENT_SHADERS_FIELD_LOOKUP_GLSL
 
@@ -49,5 +60,24 @@ vec3 field_irradiance(FieldRecord field, vec3 position_ws, vec3 normal_ws, vec3 
   lambent_field = field;
   return lookup_irradiance(field.volumes, position_ws, normal_ws, to_viewer_ws, infinity());
 }
+
+#ifdef LAMBENT_VISIBILITY_RAYS
+uvec2 fetch_cell_visibility(int lowest) {
+  return uvec2(lambent_field.cell_visibility.at[2 * lowest],
+               lambent_field.cell_visibility.at[2 * lowest + 1]);
+}
+
+#include "field/lookup/shaders/lookup_by_rays.glsl"
+
+vec3 field_irradiance_by_rays(FieldRecord field, vec3 position_ws, vec3 normal_ws,
+                              vec3 to_viewer_ws) {
+  if (field.visibility == kVisibilityMoments) {
+    return field_irradiance(field, position_ws, normal_ws, to_viewer_ws);
+  }
+  lambent_field = field;
+  return lookup_irradiance_by_rays(field.volumes, position_ws, normal_ws, to_viewer_ws,
+                                   field.visibility == kVisibilityExact);
+}
+#endif
 
 #endif

@@ -8,11 +8,17 @@
 
 LAMBENT_BEGIN
 
+// How lookups find which probes they see. The numbers are those of Visibility.
+const uint kVisibilityMoments = 0u;
+const uint kVisibilityHybrid = 1u;
+const uint kVisibilityExact = 2u;
+
 struct FieldRecord {
   StoreArrays store;
   CorrectionArrays corrections;
+  UintArray cell_visibility;  ///< Of hybrid visibility: two words a probe (all_visible).
   int volumes;
-  int unused;
+  uint visibility;  ///< kVisibilityMoments, ...: what lookups do that can trace rays.
 };
 LAMBENT_DEVICE_ARRAY(FieldRecordArray, FieldRecord, 8)
 

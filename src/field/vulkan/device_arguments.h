@@ -169,13 +169,38 @@ struct FindLookupsArguments {
   CorrectionArrays corrections;  ///< None: lookups are not corrected.
 };
 
-/// Arguments of cell_visibility_rays, which makes the rays between the corners of cells. `cells`
-/// holds the cells' lowest probes, and `rays` has kCellPairs entries per cell.
+// Words of a ray counter: the size of an indirect dispatch of the requested rays (three words); the
+// first cell, or row of points, of this dispatch among all; the number of all cells; the number of
+// all rows; and the total number of rays since the counter was read last. The device may know the
+// numbers of cells and rows alone.
+const int kRaysRequested = 0;
+const int kFirstItem = 3;
+const int kCellsListed = 4;
+const int kRowsListed = 5;
+const int kRaysTotal = 6;
+const int kCounterWords = 7;
+
+/// Arguments of cells_around, which lists the cells that have one of kRowsListed probes as a
+/// corner, by their lowest probes and in any order. `marks` has a word for each of all probes, all
+/// 0 at first.
+struct CellsAroundArguments {
+  GridArray grids;
+  IntArray probes;
+  UintArray marks;
+  IntArray cells;
+  UintArray counter;
+};
+
+/// Arguments of cell_visibility_rays, which makes the rays between the corners of at most `count`
+/// listed cells. `cells` holds the lowest probes of all listed cells, and `rays` has kCellPairs
+/// entries per cell of this dispatch.
 struct CellVisibilityRaysArguments {
   StoreArrays store;
   IntArray cells;
   RayArray rays;
+  UintArray counter;
   int count;
+  int unused;
 };
 
 /// Arguments of cell_visibility_bits, which stores the results in two words per lowest probe
@@ -184,14 +209,10 @@ struct CellVisibilityBitsArguments {
   IntArray cells;
   UintArray occluded;
   UintArray cell_visibility;
+  UintArray counter;
   int count;
+  int unused;
 };
-
-// Words of a ray counter: the size of an indirect dispatch of the requested rays (three words), and
-// the total number of rays since the counter was read last.
-const int kRaysRequested = 0;
-const int kRaysTotal = 3;
-const int kCounterWords = 4;
 
 /// The visibility rays of a point, which are consecutive. `tested` has eight bits per lookup, one
 /// per corner.
@@ -221,6 +242,7 @@ struct ApplyCornerTestsArguments {
   LookupArray lookups;
   CornerTestArray tests;
   UintArray occluded;
+  UintArray counter;
 };
 
 /// Arguments of read_lookups, which computes the irradiance for queries whose lookups were found.

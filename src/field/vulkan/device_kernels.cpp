@@ -11,6 +11,7 @@
 #include "shaders/blend_solution_comp.h"
 #include "shaders/cell_visibility_bits_comp.h"
 #include "shaders/cell_visibility_rays_comp.h"
+#include "shaders/cells_around_comp.h"
 #include "shaders/compare_light_comp.h"
 #include "shaders/find_lookups_comp.h"
 #include "shaders/fit_comp.h"
@@ -127,6 +128,7 @@ VisibilityKernels::VisibilityKernels(const vulkan::Device& device, const FieldSe
   const auto make = [&](vulkan::Spirv spirv, const char* name) {
     return vulkan::Kernel(device, spirv, name, constants);
   };
+  cells_around = make(shaders::cells_around_comp(), "cells_around");
   cell_visibility_rays = make(shaders::cell_visibility_rays_comp(), "cell_visibility_rays");
   cell_visibility_bits = make(shaders::cell_visibility_bits_comp(), "cell_visibility_bits");
   test_corners = make(shaders::test_corners_comp(), "test_corners");

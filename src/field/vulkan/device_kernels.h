@@ -41,8 +41,8 @@ struct VisibilityKernels {
   VisibilityKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
                     int lookups);
 
-  vulkan::Kernel cell_visibility_rays, cell_visibility_bits, test_corners, apply_corner_tests,
-      read_lookups;
+  vulkan::Kernel cells_around, cell_visibility_rays, cell_visibility_bits, test_corners,
+      apply_corner_tests, read_lookups;
 };
 
 /// The kernels with which fields that follow our own world learn corrections of lookups.

@@ -137,10 +137,11 @@ void FieldResources::record_lookups(vulkan::Recorder& to, const DeviceProbes& li
   run_over(to, kernels_.find_lookups, arguments, list, kOverRays);
   to.barrier();
   if (!cell_visibility_ || tracer == nullptr) return;
+  cell_visibility_->record_rows(to, {list.count(), list.chosen});
   const int rows = cell_visibility_->points() / stride_;
   for (int first = 0; first < list.count(); first += rows) {
     const int some = std::min(rows, list.count() - first);
-    cell_visibility_->record_corner_tests(to, *tracer, store(), points(first, some), lookups,
+    cell_visibility_->record_corner_tests(to, *tracer, store(), points(first, some), first, lookups,
                                           list.most_rays);
   }
 }
@@ -295,7 +296,9 @@ void FieldResources::record_find_lookups(vulkan::Recorder& to, QueryArray querie
   to.run(kernels_.find_lookups, found, kQueryRow, points.rows);
   to.barrier();
   if (!cell_visibility_ || tracer == nullptr) return;
-  cell_visibility_->record_corner_tests(to, *tracer, store(), points, lookups, kQueryRow);
+  cell_visibility_->record_rows(to, {points.rows});
+  cell_visibility_->record_corner_tests(to, *tracer, store(), points, /*first=*/0, lookups,
+                                        kQueryRow);
 }
 
 /// Records a lookup with visibility by rays, for a limited number of points at a time.
@@ -320,6 +323,13 @@ void FieldResources::record_cell_visibility(vulkan::Recorder& to, const DeviceTr
                                             IntArray cells, int count) const {
   assert(cell_visibility_);
   cell_visibility_->record_cell_visibility(to, tracer, store(), cells, count);
+}
+
+void FieldResources::record_visibility_around(vulkan::Recorder& to, const DeviceTracer& tracer,
+                                              const DeviceProbes& list) const {
+  assert(cell_visibility_);
+  cell_visibility_->record_visibility_around(to, tracer, store(), list.index_array(),
+                                             {list.count(), list.chosen});
 }
 
 void FieldResources::take_ray_count(vulkan::Recorder& to, const vulkan::Buffer& count) const {

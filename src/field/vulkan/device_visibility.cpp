@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
+#include <cstddef>
 
 #include "field/lookup/visibility_math.h"
+#include "field/transport/list_sizes.h"
 #include "vulkan/device_memory.h"
 
 namespace lambent {
@@ -21,6 +24,7 @@ DeviceVisibility::DeviceVisibility(const vulkan::Device& device, const FieldSett
     : device_(device),
       kernels_(VisibilityKernels::of(device, settings, volumes, lookups)),
       exact_(settings.visibility == Visibility::exact),
+      probes_(probes),
       lookups_a_point_(lookups),
       cell_visibility_(device, 2 * sizeof(uint) * probes, vulkan::Memory::device,
                        "visibility within cells"),
@@ -43,33 +47,91 @@ void DeviceVisibility::reserve(int points) {
   lambent::reserve<SurfelLookup>(device_, lookups, "lookups of queries", lookups_);
 }
 
+void DeviceVisibility::reserve_cells_around() {
+  lambent::reserve<uint>(device_, probes_, "marks of cells", marks_);
+  lambent::reserve<int>(device_, probes_, "cells to look across", cells_);
+}
+
+std::size_t DeviceVisibility::bytes() const {
+  return bytes_of(
+      {&cell_visibility_, &rays_, &occluded_, &counter_, &tests_, &lookups_, &marks_, &cells_});
+}
+
+/// Resets the size of the dispatch of rays, and says which item is the first.
+void DeviceVisibility::record_first_item(vulkan::Recorder& to, int first) const {
+  static_assert(kRaysRequested == 0 && kFirstItem == 3);
+  const std::array<std::uint32_t, 4> none = {0u, 1u, 1u, static_cast<std::uint32_t>(first)};
+  to.update(counter_, none.data(), sizeof(none));
+  to.barrier();
+}
+
+/// The rays that a kernel has asked for: as many as the counter says, and never more than `most`.
+RayBatch DeviceVisibility::requested_rays(int most) const {
+  RayBatch batch;
+  batch.rays = {rays_.address()};
+  batch.count = static_cast<std::uint32_t>(most);
+  batch.indirect = &counter_;
+  batch.indirect_offset = kRaysRequested * sizeof(uint);
+  return batch;
+}
+
 void DeviceVisibility::record_cell_visibility(vulkan::Recorder& to, const DeviceTracer& tracer,
                                               const StoreArrays& store, IntArray cells,
                                               int count) const {
-  const int most = points_ * lookups_a_point_ * kCellCorners / kCellPairs;
-  for (int first = 0; first < count; first += most) {
-    const int some = std::min(most, count - first);
-    const IntArray these{cells.address + first * sizeof(int)};
-    const CellVisibilityRaysArguments asked = {store, these, {rays_.address()}, some};
+  to.update(counter_, &count, sizeof(count), kCellsListed * sizeof(uint));
+  record_listed_cells(to, tracer, store, cells, count);
+}
+
+void DeviceVisibility::record_visibility_around(vulkan::Recorder& to, const DeviceTracer& tracer,
+                                                const StoreArrays& store, IntArray probes,
+                                                const ListLength& length) const {
+  assert(cells_.bytes() > 0);
+  to.fill(marks_, 0u);
+  to.fill(counter_, 0u, kCellsListed * sizeof(uint), sizeof(uint));
+  record_rows(to, length);
+  const CellsAroundArguments around = {
+      store.grids, probes, {marks_.address()}, {cells_.address()}, {counter_.address()}};
+  to.run(kernels_.cells_around, around, length.most);
+  to.barrier();
+  const int most = std::min(kCellCorners * length.most, probes_);
+  record_listed_cells(to, tracer, store, {cells_.address()}, most);
+}
+
+/// Records the rays within the counter's number of cells, which is at most `most`.
+void DeviceVisibility::record_listed_cells(vulkan::Recorder& to, const DeviceTracer& tracer,
+                                           const StoreArrays& store, IntArray cells,
+                                           int most) const {
+  const int at_a_time = points_ * lookups_a_point_ * kCellCorners / kCellPairs;
+  for (int first = 0; first < most; first += at_a_time) {
+    const int some = std::min(at_a_time, most - first);
+    record_first_item(to, first);
+    const CellVisibilityRaysArguments asked = {
+        store, cells, {rays_.address()}, {counter_.address()}, some, 0};
     to.run(kernels_.cell_visibility_rays, asked, some);
     to.barrier();
-    tracer.occlusions(to, {{rays_.address()}, static_cast<std::uint32_t>(some) * kCellPairs},
-                      {occluded_.address()});
+    tracer.occlusions(to, requested_rays(some * kCellPairs), {occluded_.address()});
     to.barrier();
     const CellVisibilityBitsArguments found = {
-        these, {occluded_.address()}, {cell_visibility_.address()}, some};
+        cells, {occluded_.address()}, {cell_visibility_.address()}, {counter_.address()}, some, 0};
     to.run(kernels_.cell_visibility_bits, found, some);
     to.barrier();
   }
 }
 
+void DeviceVisibility::record_rows(vulkan::Recorder& to, const ListLength& rows) const {
+  if (rows.chosen != nullptr) {
+    to.copy(*rows.chosen, counter_, sizeof(uint), offsetof(ListState, probes),
+            kRowsListed * sizeof(uint));
+  } else {
+    to.update(counter_, &rows.most, sizeof(rows.most), kRowsListed * sizeof(uint));
+  }
+  to.barrier();
+}
+
 void DeviceVisibility::record_corner_tests(vulkan::Recorder& to, const DeviceTracer& tracer,
                                            const StoreArrays& store, const LookupPoints& points,
-                                           LookupArray lookups, int columns) const {
-  // Reset the counter, whose first words are the size of a dispatch of rays
-  constexpr std::array<std::uint32_t, 3> kNone = {0u, 1u, 1u};
-  to.update(counter_, kNone.data(), sizeof(kNone), kRaysRequested * sizeof(uint));
-  to.barrier();
+                                           int first, LookupArray lookups, int columns) const {
+  record_first_item(to, first);
   const TestCornersArguments asked = {store,
                                       points,
                                       lookups,
@@ -79,15 +141,11 @@ void DeviceVisibility::record_corner_tests(vulkan::Recorder& to, const DeviceTra
                                       {rays_.address()}};
   to.run(kernels_.test_corners, asked, columns, points.rows);
   to.barrier();
-  RayBatch batch;
-  batch.rays = {rays_.address()};
-  batch.count = static_cast<std::uint32_t>(points_ * lookups_a_point_ * kCellCorners);
-  batch.indirect = &counter_;
-  batch.indirect_offset = kRaysRequested * sizeof(uint);
-  tracer.occlusions(to, batch, {occluded_.address()});
+  tracer.occlusions(to, requested_rays(points_ * lookups_a_point_ * kCellCorners),
+                    {occluded_.address()});
   to.barrier();
   const ApplyCornerTestsArguments answered = {
-      store, points, lookups, {tests_.address()}, {occluded_.address()}};
+      store, points, lookups, {tests_.address()}, {occluded_.address()}, {counter_.address()}};
   to.run(kernels_.apply_corner_tests, answered, columns, points.rows);
   to.barrier();
 }

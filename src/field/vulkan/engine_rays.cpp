@@ -6,10 +6,14 @@
 #include "field/placement/reset_arguments.h"
 #include "field/schedule/schedule.h"
 #include "field/vulkan/recorded_state.h"
-#include "raytracing/vulkan/trace_arguments.h"
 #include "vulkan/recorder.h"
 
 namespace lambent::vulkan {
+
+RecordedField::State::EngineRays::EngineRays(State& field, VkAccelerationStructureKHR structure)
+    : s_(field) {
+  if (structure != VK_NULL_HANDLE) tracer_.emplace(*field.device, structure, field.ray_mask);
+}
 
 /// Uploads the grids of scrolled volumes, and resets the probes that have new places.
 void RecordedField::State::EngineRays::scroll(Recorder& to) {
@@ -75,24 +79,15 @@ void RecordedField::State::EngineRays::schedule(Recorder& to) {
 }
 
 void RecordedField::State::EngineRays::trace(Recorder& to, int) {
-  VkAccelerationStructureDeviceAddressInfoKHR info{};
-  info.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR;
-  info.accelerationStructure = structure;
-  const VkDeviceAddress address =
-      s_.device->fn().vkGetAccelerationStructureDeviceAddressKHR(s_.device->handle(), &info);
-  const std::uint32_t count = s_.ray_count();
-  const EngineClosestArguments arguments = {
-      uvec2(static_cast<uint>(address), static_cast<uint>(address >> 32)),
-      {s_.rays.address()},
-      {s_.hits.address()},
-      count,
-      0u};
+  assert(tracer_);
+  RayBatch batch;
+  batch.rays = {s_.rays.address()};
+  batch.count = s_.ray_count();
   if (s_.batch.on_device) {
-    to.trace_indirect(s_.tracer.closest, arguments, s_.schedule->state(),
-                      kOverLaunch * sizeof(GroupCounts));
-    return;
+    batch.indirect = &s_.schedule->state();
+    batch.indirect_offset = kOverLaunch * sizeof(GroupCounts);
   }
-  to.trace(s_.tracer.closest, arguments, count);
+  tracer_->closest_hits(to, batch, {s_.hits.address()});
 }
 
 /// Makes surfels from the engine's results, and computes the blend weights.
@@ -126,8 +121,9 @@ void RecordedField::State::EngineRays::shade(Recorder& to, int) {
   if (!update_batch.retraces) s_.field.record_seen_surfels(to, probes);
 }
 
-void RecordedField::State::EngineRays::visibility(Recorder&) {
-  assert(!"recorded fields are not made with visibility by rays");
+void RecordedField::State::EngineRays::visibility(Recorder& to) {
+  assert(tracer_);
+  s_.field.record_visibility_around(to, *tracer_, s_.list());
 }
 
 void RecordedField::State::EngineRays::record(Recorder& to, const DeviceProbes& list,

@@ -90,7 +90,16 @@ std::size_t FieldResources::bytes() const {
   for (const RaySlot& slot : slots_) {
     bytes += bytes_of({&slot.directions, &slot.irradiance_weights, &slot.distance_weights});
   }
+  if (cell_visibility_) bytes += cell_visibility_->bytes();
   return bytes + corrections_.bytes();
+}
+
+void FieldResources::reserve_visibility_around() {
+  if (cell_visibility_) cell_visibility_->reserve_cells_around();
+}
+
+UintArray FieldResources::cell_visibility() const {
+  return cell_visibility_ ? cell_visibility_->of_cells() : UintArray{};
 }
 
 void FieldResources::set_places(const ProbeStore& store) {

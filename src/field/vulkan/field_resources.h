@@ -75,7 +75,6 @@ class FieldResources {
   int volumes() const { return volumes_; }
   int tile_texels() const { return settings_.irradiance_texels * settings_.irradiance_texels; }
   int lookups_per_surfel() const { return lookups_; }
-  /// Bytes of device memory of the field, without cell visibility.
   std::size_t bytes() const;
   std::size_t surfel_bytes() const { return surfels_.bytes() + lookup_records_.bytes(); }
 
@@ -187,6 +186,14 @@ class FieldResources {
   /// cells_around().
   void record_cell_visibility(vulkan::Recorder& to, const DeviceTracer& tracer, IntArray cells,
                               int count) const;
+  /// Records the same for all cells around a list's probes, which the device finds.
+  void record_visibility_around(vulkan::Recorder& to, const DeviceTracer& tracer,
+                                const DeviceProbes& list) const;
+  /// Reserves memory for that. Must be called before.
+  void reserve_visibility_around();
+  /// Two words a probe, as DeviceVisibility::of_cells(); of address 0 where visibility is by
+  /// distances only.
+  UintArray cell_visibility() const;
   /// Records find_surfel_lookups(). `tracer` traces the visibility rays, with the scene's textures
   /// bound. Where it is null, visibility is by distances.
   void record_lookups(vulkan::Recorder& to, const DeviceProbes& list,

@@ -58,15 +58,6 @@ struct RecordedRaysArguments {
   uint placing_updates;
 };
 
-/// Arguments of engine_closest, which finds closest hits in an engine's acceleration structure.
-struct EngineClosestArguments {
-  uvec2 structure;  ///< Its address, low word first.
-  RayArray rays;
-  HitArray hits;
-  uint count;
-  uint unused;
-};
-
 /// Arguments of fade_samples, which multiplies every probe's number of samples by a factor.
 struct FadeSamplesArguments {
   StandingArray standing;

@@ -18,9 +18,6 @@ BufferRange range_of(const Buffer& buffer) {
 }
 
 Expected<void> check_recorded(const FieldSettings& s, const RecordedFieldSettings& r) {
-  if (s.visibility != Visibility::moments) {
-    return fail("", "visibility", "recorded fields trace no rays for it");
-  }
   if (s.max_bounces >= 0 && (r.probes_per_update != 0 || r.rays_per_update != 0)) {
     return fail("", "bounces", "can be counted only where all probes are traced at once");
   }
@@ -118,15 +115,20 @@ void RecordedField::record_rays(VkCommandBuffer commands) const {
 
 void RecordedField::record_trace(VkCommandBuffer commands,
                                  VkAccelerationStructureKHR structure) const {
-  State::EngineRays source(*state_);
-  source.structure = structure;
+  State::EngineRays source(*state_, structure);
   state_->record_part(source, commands, find_hits);
 }
 
-void RecordedField::record_update(VkCommandBuffer commands) {
-  State::EngineRays source(*state_);
+Expected<void> RecordedField::record_update(VkCommandBuffer commands,
+                                            VkAccelerationStructureKHR structure) {
+  if (state_->settings.visibility != Visibility::moments && structure == VK_NULL_HANDLE) {
+    return fail("", "structure",
+                "is needed where probes are seen by rays (FieldSettings::visibility)");
+  }
+  State::EngineRays source(*state_, structure);
   const bool retraces = state_->batch.retraces;
   state_->record_part(source, commands, retraces ? follow_retraced_hits : follow_hits);
+  return {};
 }
 
 void RecordedField::record_maintain(VkCommandBuffer commands) const {

@@ -8,9 +8,6 @@
 #include "core/pass_times.h"
 #include "field/lookup/field_record.h"
 #include "field/transport/blend.h"
-#include "shaders/closest_rchit.h"
-#include "shaders/closest_rmiss.h"
-#include "shaders/engine_closest_rgen.h"
 #include "shaders/fade_samples_comp.h"
 #include "shaders/maintain_probes_comp.h"
 #include "shaders/recorded_blend_weights_comp.h"
@@ -22,6 +19,10 @@
 
 namespace lambent::vulkan {
 namespace {
+
+static_assert(kVisibilityMoments == static_cast<uint>(Visibility::moments) &&
+              kVisibilityHybrid == static_cast<uint>(Visibility::hybrid) &&
+              kVisibilityExact == static_cast<uint>(Visibility::exact));
 
 // The most parts in which an engine records an update, and the most passes of a part.
 constexpr int kUpdateParts = 4;
@@ -64,15 +65,6 @@ RecordedKernels::RecordedKernels(const Device& device, const FieldSettings& sett
   maintain = make(shaders::maintain_probes_comp(), "maintain_probes");
   reset_probes = make(shaders::reset_probes_comp(), "reset_probes");
 }
-
-EngineTracer::EngineTracer(const Device& device)
-    : closest(device,
-              {shaders::engine_closest_rgen(),
-               shaders::closest_rmiss(),
-               shaders::closest_rchit(),
-               {},
-               /*any_record=*/true},
-              "closest hits of engines") {}
 
 LookupSet::LookupSet(const Device& device, const FieldResources& field) : device_(device) {
   const Functions& f = device.fn();
@@ -210,8 +202,11 @@ RecordedField::State::State(std::shared_ptr<Device> on, const FieldSettings& of,
       field(*device, of, shape),
       solver(field),
       kernels(*device, of, shape.volumes()),
-      tracer(device->kept<EngineTracer>()),
       lookup_set(*device, field) {
+  // Recording makes nothing
+  device->kept<EngineClosest>();
+  if (of.visibility != Visibility::moments) device->kept<EngineOcclusion>();
+  if (of.visibility == Visibility::hybrid) field.reserve_visibility_around();
   const auto all = static_cast<std::size_t>(shape.probes());
   const auto probes = static_cast<std::size_t>(plan.most_probes());
   const std::size_t ray_room = probes * of.rays_per_probe;
@@ -257,7 +252,8 @@ std::size_t UpdateMemory::bytes() const {
 
 void RecordedField::State::write_record() const {
   const FieldRecord lookup = {field.store(), field.corrections().arrays(CorrectionUse::smooth),
-                              field.volumes(), 0};
+                              field.cell_visibility(), field.volumes(),
+                              static_cast<uint>(settings.visibility)};
   vulkan::write(*device, std::span(&lookup, 1), record);
 }
 

@@ -16,6 +16,7 @@
 #include "field/vulkan/passes_vulkan.h"
 #include "field/vulkan/recorded_arguments.h"
 #include "field/vulkan/recorded_plan.h"
+#include "raytracing/vulkan/engine_tracer.h"
 #include "vulkan/device.h"
 
 namespace lambent {
@@ -29,14 +30,6 @@ struct RecordedKernels {
   RecordedKernels(const Device& device, const FieldSettings& settings, int volumes);
 
   Kernel rays, fade_samples, blend_weights, surfels, maintain, reset_probes;
-};
-
-/// The pipeline that traces rays in engines' acceleration structures. All fields on a device share
-/// it.
-struct EngineTracer {
-  explicit EngineTracer(const Device& device);
-
-  RayKernel closest;
 };
 
 /// The store's buffers as a descriptor set.
@@ -129,7 +122,6 @@ struct RecordedField::State {
   FieldResources field;
   DeviceSolver solver;
   RecordedKernels kernels;
-  const EngineTracer& tracer;
   LookupSet lookup_set;
   std::unique_ptr<DeviceSchedule> schedule;  // null: the host plans all batches
   std::unique_ptr<DeviceHistory> history;    // null: averages start again after edits
@@ -146,10 +138,9 @@ struct RecordedField::State {
 /// and the placement from their results.
 class RecordedField::State::EngineRays final : public RaySourceVulkan, public VariabilityVulkan {
  public:
-  explicit EngineRays(State& field) : s_(field) {}
-
-  /// The acceleration structure in which `trace` finds hits.
-  VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
+  /// `structure`: the acceleration structure in which `trace` finds hits, and `tracer` traces
+  /// visibility rays. Null: neither is asked for.
+  explicit EngineRays(State& field, VkAccelerationStructureKHR structure = VK_NULL_HANDLE);
 
   int batches() const override { return 1; }
   void scroll(Recorder& to) override;
@@ -160,7 +151,7 @@ class RecordedField::State::EngineRays final : public RaySourceVulkan, public Va
   /// Returns false: engines shade hits of probe rays only, and not those of gathers.
   bool learns() const override { return false; }
   void corrections(Recorder& /*to*/) override {}
-  const DeviceTracer* tracer() const override { return nullptr; }
+  const DeviceTracer* tracer() const override { return tracer_ ? &*tracer_ : nullptr; }
   void placement(Recorder& to) override;
   void record(Recorder& to, const DeviceProbes& list, FloatArray blend_weights,
               Vec4Array before) override;
@@ -169,6 +160,7 @@ class RecordedField::State::EngineRays final : public RaySourceVulkan, public Va
   void record_weights(Recorder& to) const;
 
   State& s_;
+  std::optional<EngineTracer> tracer_;
 };
 
 }  // namespace lambent::vulkan

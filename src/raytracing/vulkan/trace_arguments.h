@@ -19,6 +19,17 @@ struct TraceArguments {
   uint to_hits;  ///< Transmittance: 1: rays end at `hits`.
 };
 
+/// Arguments of engine_closest and engine_occlusion, which find in an engine's acceleration
+/// structure the closest hits of rays, and whether rays hit anything.
+struct EngineTraceArguments {
+  uvec2 structure;  ///< Its address, low word first.
+  RayArray rays;
+  HitArray hits;       ///< Results of engine_closest.
+  UintArray occluded;  ///< Results of engine_occlusion, one word a ray: 1 where it hits something.
+  uint count;
+  uint mask;  ///< Mask of the rays of engine_occlusion, in place of their own masks.
+};
+
 /// The light along a ray, as far as the ray has been traced.
 struct TransmittancePayload {
   vec3 through;        ///< Share that passes the surfaces so far.

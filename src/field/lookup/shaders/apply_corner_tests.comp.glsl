@@ -14,7 +14,7 @@ layout(push_constant, scalar) uniform Push {
 
 void main() {
   LookupPoint point = lookup_point();
-  if (!point.exists) return;
+  if (!is_listed(point)) return;
   CornerTests tests = args.tests.at[point.place];
   uint ray = tests.first_ray;
   for (int l = 0; l < kLookups; ++l) {

@@ -13,13 +13,14 @@ layout(push_constant, scalar) uniform Push {
 
 void main() {
   int cell = int(gl_GlobalInvocationID.x);
-  if (cell >= args.count) return;
+  uint among_all = args.counter.at[kFirstItem] + uint(cell);
+  if (cell >= args.count || among_all >= args.counter.at[kCellsListed]) return;
   uvec2 cell_visibility = all_visible();
   for (int pair = 0; pair < kCellPairs; ++pair) {
     if (args.occluded.at[cell * kCellPairs + pair] == 0u) continue;
     cell_visibility = without_pair(cell_visibility, cell_pair(pair));
   }
-  int lowest = args.cells.at[cell];
+  int lowest = args.cells.at[among_all];
   args.cell_visibility.at[2 * lowest] = cell_visibility.x;
   args.cell_visibility.at[2 * lowest + 1] = cell_visibility.y;
 }

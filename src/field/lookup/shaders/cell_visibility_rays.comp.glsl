@@ -16,8 +16,13 @@ layout(push_constant, scalar) uniform Push {
 
 void main() {
   int cell = int(gl_GlobalInvocationID.x);
-  if (cell >= args.count) return;
-  int lowest = args.cells.at[cell];
+  uint first = args.counter.at[kFirstItem], listed = args.counter.at[kCellsListed];
+  uint among_all = first + uint(cell);
+  if (cell >= args.count || among_all >= listed) return;
+  if (cell == 0) {
+    args.counter.at[kRaysRequested] = uint(kCellPairs) * min(uint(args.count), listed - first);
+  }
+  int lowest = args.cells.at[among_all];
   ProbeGrid grid = args.store.grids.at[volume_of(args.store.grids, lowest)];
   ivec3 coords = probe_coords(grid, lowest);
   vec3 places[kCellCorners];

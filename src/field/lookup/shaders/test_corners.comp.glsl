@@ -38,13 +38,14 @@ uint corners_to_test(LookupPoint point, int lookup) {
 
 void main() {
   LookupPoint point = lookup_point();
+  bool exists = is_listed(point);
   uint tested = 0u;
-  for (int l = 0; l < kLookups && point.exists; ++l) {
+  for (int l = 0; l < kLookups && exists; ++l) {
     tested |= corners_to_test(point, point.lookup + l) << (kCellCorners * l);
   }
 
   uint ray = allocate_rays(args.counter, uint(bitCount(tested)));
-  if (!point.exists) return;
+  if (!exists) return;
   args.tests.at[point.place] = CornerTests(ray, tested);
   if (tested == 0u) return;
   QueryRecord query = query_of(point);

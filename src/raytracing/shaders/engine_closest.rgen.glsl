@@ -3,11 +3,10 @@
 // address is known: instance masks are the engine's, and transparent surfaces stop rays.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "field/vulkan/recorded_arguments.h"
 #include "raytracing/shaders/find_closest.glsl"
 
 layout(push_constant, scalar) uniform Push {
-  EngineClosestArguments args;
+  EngineTraceArguments args;
 };
 
 void main() {

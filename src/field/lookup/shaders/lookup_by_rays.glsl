@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lookup of the irradiance field with visibility by rays that are traced at once. The includer
+// provides what field/lookup/lookup.inl.h asks for, includes that, and has
+//   uvec2 fetch_cell_visibility(int lowest)
+//       which corners see each other of the cell whose lowest probe this is, all_visible()
+//   bool field_occluded(vec3 origin_ws, vec3 direction_ws, float distance)
+//       whether a ray meets anything nearer than this [m]
+#ifndef LAMBENT_FIELD_LOOKUP_SHADERS_LOOKUP_BY_RAYS_GLSL
+#define LAMBENT_FIELD_LOOKUP_SHADERS_LOOKUP_BY_RAYS_GLSL
+
+#include "field/lookup/visibility_math.h"
+#include "field/lookup/visibility.inl.h"
+
+/// The weights of the corners around a point. With `exact` all corners are asked with rays, else
+/// those alone that distances leave in doubt.
+CornerWeights seen_corners(LookupGrid volume, LookupCell cell, vec3 position_ws, vec3 normal_ws,
+                           bool exact) {
+  CornerWeights by_distances;
+  for (int k = 0; k < kCellCorners; ++k) {
+    by_distances.weight[k] = lookup_weight(volume, cell, cell_corner(k), position_ws, normal_ws);
+  }
+
+  // Find which corners count as hidden without a ray, and which are asked with one
+  CornerWeights corners = by_distances;
+  uint tested;
+  if (exact) {
+    corners = visible_corners(volume, cell, corners, position_ws, normal_ws);
+    tested = weighed_corners(corners);
+  } else {
+    uvec2 seen = fetch_cell_visibility(probe_index(volume.grid, cell.cell.base));
+    VisibilityMask mask = visibility_mask(corners, seen, sum_of_weights(corners));
+    hide_corners(corners, mask.hidden);
+    tested = mask.tested;
+  }
+  for (; tested != 0u; tested &= tested - 1u) {
+    int corner = findLSB(tested);
+    RayRecord ray = corner_ray(volume.grid, cell, corner);
+    if (field_occluded(ray.origin_ws, ray.direction_ws, ray.t_max)) {
+      hide_corners(corners, 1u << uint(corner));
+    }
+  }
+  // Where no probe is visible, the weights by distances stay
+  return sum_of_weights(corners) > 0.0f ? corners : by_distances;
+}
+
+/// lookup_volume() with these weights.
+vec4 lookup_volume_by_rays(ProbeGrid grid, int volume_index, float volume_weight, vec3 position_ws,
+                           vec3 normal_ws, vec3 to_viewer_ws, bool exact) {
+  LookupGrid volume = lookup_grid(grid);
+  LookupCell cell = lookup_cell(volume, position_ws, normal_ws, to_viewer_ws, infinity());
+  CornerWeights corners = seen_corners(volume, cell, position_ws, normal_ws, exact);
+  float weight_sum = sum_of_weights(corners);
+  if (!(weight_sum > 0.0f)) return vec4(0.0f);
+  vec3 sum = vec3(0.0f);
+  for (int k = 0; k < kCellCorners; ++k) {
+    if (corners.weight[k] <= 0.0f) continue;
+    int probe = probe_index(grid, cell.cell.base + cell_corner(k));
+    sum += fetch_irradiance(probe, normal_ws) * corners.weight[k];
+  }
+  float ratio = fetch_correction(grid, volume_index, position_ws, normal_ws);
+  return vec4(sum * (ratio * volume_weight / weight_sum), volume_weight);
+}
+
+/// lookup_irradiance() with these weights.
+vec3 lookup_irradiance_by_rays(int volumes, vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws,
+                               bool exact) {
+  vec4 answer = vec4(0.0f);
+  for (int volume = 0; volume < volumes && answer.w < 1.0f; ++volume) {
+    ProbeGrid grid = fetch_grid(volume);
+    float volume_weight = volume + 1 == volumes ? 1.0f : volume_blend_weight(grid, position_ws);
+    if (volume_weight <= 0.0f) continue;
+    answer += lookup_volume_by_rays(grid, volume, volume_weight * (1.0f - answer.w), position_ws,
+                                    normal_ws, to_viewer_ws, exact);
+  }
+  return answer.w > 0.0f ? vec3(answer) / answer.w : vec3(0.0f);
+}
+
+#endif
