@@ -52,14 +52,14 @@ class Relocated {
         probes_(store_.probes()),
         kernels_(device, settings_, 1),
         grids_(vulkan::upload(device, store_.grids(), "grids")),
-        standing_(device, probes_ * sizeof(ProbeStanding), Memory::upload, "standing"),
+        standing_(device, probes_ * sizeof(RecordedProbe), Memory::upload, "standing"),
         states_(device, probes_ * sizeof(uint), Memory::readback, "states"),
         list_(device, probes_ * sizeof(int), Memory::upload, "list"),
         rays_(device, rays() * sizeof(RayRecord), Memory::upload, "rays"),
         results_(device, rays() * sizeof(RayResult), Memory::upload, "results") {
     for (std::size_t k = 0; k < probes_; ++k) {
       list_.as<int>()[k] = static_cast<int>(k);
-      standing_.as<ProbeStanding>()[k].samples = 1.0f;
+      standing_.as<RecordedProbe>()[k].samples = 1.0f;
     }
   }
 
@@ -83,7 +83,7 @@ class Relocated {
     int otherwise = 0;
     for (std::size_t k = 0; k < probes_; ++k) {
       otherwise += step_on_cpu(k, placing_step(placed, placing_updates)) ? 0 : 1;
-      standing_.as<ProbeStanding>()[k].placed = placed + 1;
+      standing_.as<RecordedProbe>()[k].placed = placed + 1;
     }
     return otherwise;
   }
@@ -124,7 +124,7 @@ class Relocated {
     const auto probe = static_cast<int>(k);
     const std::size_t n = fixed_ray_directions().size();
     const std::span<const FixedRayHit> around(&fixed_hits_[k * n], n);
-    ProbeStanding& standing = standing_.as<ProbeStanding>()[k];
+    RecordedProbe& standing = standing_.as<RecordedProbe>()[k];
     const vec3 spacing = store_.grid(0).spacing, offset = store_.probe_offset(probe);
     RelocationState& relocation = relocations_[k];
     if (place == kPlaceFirstStep) relocation = begin_relocation(offset);

@@ -27,7 +27,7 @@ struct Crowd {
     RandomStream random = make_random_stream(1, 2, 3);
     const auto uniform = [&] { return next_uniform(random); };
     for (int probe = 0; probe < store.probes(); ++probe) {
-      ProbeStanding stands{};
+      RecordedProbe stands{};
       stands.samples = 120.0f * uniform() * uniform();
       standing.push_back(stands);
       states.push_back(uniform() < 0.1f ? kProbeOff : kProbeOn);
@@ -45,7 +45,7 @@ struct Crowd {
     if (off) {
       const bool looked_at = look && waits_too_long(own.last_traced, kUpdate + 1);
       return looked_at ? priority_bin(probe_urgency(0.0f, own.last_traced, kUpdate + 1, weight))
-                       : kNoPartBin;
+                       : kInactiveBin;
     }
     const ProbeGrid& grid = store.grid_of(probe);
     float sum = own.known.variance;
@@ -68,7 +68,7 @@ struct Crowd {
   FieldSettings settings;
   ProbeStore store;
   std::vector<VolumeRole> roles = {{.follows_viewer = false, .level = 2}};  // for the only volume
-  std::vector<ProbeStanding> standing;
+  std::vector<RecordedProbe> standing;
   std::vector<uint> states;
   std::vector<ProbeVariability> variability;
 };
@@ -161,7 +161,7 @@ TEST_F(DeviceScheduleTest, SizesTheKernelsThatFollow) {
 
 TEST_F(DeviceScheduleTest, LetsAllRestWhereAllAreSettled) {
   Crowd crowd(many_probes());
-  for (ProbeStanding& standing : crowd.standing) standing.samples = 1000.0f;
+  for (RecordedProbe& standing : crowd.standing) standing.samples = 1000.0f;
   for (ProbeVariability& variability : crowd.variability) variability.last_traced = kUpdate;
   const Chosen chosen = choose(crowd, 96, false);
   EXPECT_TRUE(chosen.probes.empty());

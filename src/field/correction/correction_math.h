@@ -230,7 +230,7 @@ LAMBENT_FN CorrectionNoise correction_noise(float variance, float looked_up, flo
 }
 
 /// The number of samples of typical noise that each sample of an update counts as, at most 1.
-LAMBENT_FN float worth_of_samples(CorrectionNoise noise) {
+LAMBENT_FN float sample_weight(CorrectionNoise noise) {
   float typical = kTypicalNoise * noise.squares;
   return noise.variances > typical ? max(typical / noise.variances, kLeastWorth) : 1.0f;
 }
@@ -274,7 +274,7 @@ LAMBENT_FN CorrectionItem correction_item(vec3 coords, uint axis, uint level, ui
 struct LearnedCorrection {
   float gathered;   ///< Weighted sum of CorrectionSum::gathered.
   float looked_up;  ///< Weighted sum of CorrectionSum::looked_up.
-  float samples;    ///< Weighted number of samples, each counted as worth_of_samples().
+  float samples;    ///< Weighted number of samples, each counted as sample_weight().
 };
 
 // A cell with fewer samples than this is reset.

@@ -82,7 +82,7 @@ float worth_of(std::span<const CorrectionSample> samples, float mean) {
     variances += noise.variances;
     squares += noise.squares;
   }
-  return worth_of_samples({static_cast<float>(variances), static_cast<float>(squares)});
+  return sample_weight({static_cast<float>(variances), static_cast<float>(squares)});
 }
 
 }  // namespace

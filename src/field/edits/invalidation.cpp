@@ -206,7 +206,7 @@ void move_moments(int probe, std::span<const vec2> before, std::span<const vec2>
   for (std::size_t t = 0; t < moments.size(); ++t) {
     const ivec2 texel(static_cast<int>(t) % edge, static_cast<int>(t) / edge);
     const vec2 held = store.moments_texel(probe, texel + 1);
-    moments[t] = moved_moments(held, before[t], after[t], has_history);
+    moments[t] = shifted_moments(held, before[t], after[t], has_history);
   }
   store.blend_moments(probe, moments, 1.0f, dither_seed);
 }

@@ -23,7 +23,7 @@ const float kBias = 0.3f;
 // gathers light in a corner ends a few centimetres from its origin, so that the whole bias would
 // lead through the wall at the origin, to probes outdoors. With one half, the biased position is
 // equally far from both ends.
-const float kFreeShare = 0.5f;
+const float kMaxViewBiasShare = 0.5f;
 
 // The weight of a probe falls with the cosine between the normal and the direction to the probe,
 // and is 0 where that cosine is below -kWrapCosine, behind the surface. The published value is 1
@@ -51,14 +51,14 @@ const float kTiniestLength = 1e-12f;
 const float kTiniestSquare = 1e-20f;
 
 // A remaining weight below this, after some volumes have taken theirs, is a rounding error.
-const float kNothingLeft = 1e-6f;
+const float kMinRemainingWeight = 1e-6f;
 
 /// The point at which visibility is evaluated, seen by a viewer at this distance [m].
 LAMBENT_FN vec3 biased_position(vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws,
                                 float viewer_distance, float spacing_min) {
   float bias = kBiasScale * kBias * spacing_min;
   return position_ws + kNormalBias * bias * normal_ws +
-         min(kViewBias * bias, kFreeShare * viewer_distance) * to_viewer_ws;
+         min(kViewBias * bias, kMaxViewBiasShare * viewer_distance) * to_viewer_ws;
 }
 
 /// A bilinear fetch of distances. Agrees with tile_fetch() of probes/tile.h but for rounding: it

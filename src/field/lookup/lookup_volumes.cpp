@@ -15,7 +15,7 @@ namespace {
 // between the two kernels.
 constexpr std::size_t kBatch = 256;
 
-bool knows_nothing(const CornerWeights& corners) {
+bool has_no_weight(const CornerWeights& corners) {
   return std::all_of(std::begin(corners.weight), std::end(corners.weight),
                      [](float weight) { return weight == 0.0f; });
 }
@@ -38,7 +38,7 @@ std::uint64_t find_blended(const ProbeStore& store, const VisibilityRays& by,
     which.clear();
     volume_weights.clear();
     for (std::size_t i = 0; i < queries.size(); ++i) {
-      if (left[i] <= kNothingLeft) continue;
+      if (left[i] <= kMinRemainingWeight) continue;
       const float volume_weight =
           last ? 1.0f : volume_blend_weight(store.grid(volume), queries[i].position_ws);
       if (volume_weight <= 0.0f) continue;
@@ -50,7 +50,7 @@ std::uint64_t find_blended(const ProbeStore& store, const VisibilityRays& by,
     traced += visible_corner_weights(store, volume, by, asking, corners);
     for (std::size_t k = 0; k < asking.size(); ++k) {
       // Where no probe of this volume is visible, the next volumes take its weight
-      if (knows_nothing(corners[k])) continue;
+      if (has_no_weight(corners[k])) continue;
       const float volume_weight = left[which[k]] * volume_weights[k];
       left[which[k]] -= volume_weight;
       for (float& weight : corners[k].weight) weight *= volume_weight;
@@ -61,7 +61,7 @@ std::uint64_t find_blended(const ProbeStore& store, const VisibilityRays& by,
   // Where no probe of the last volume is visible, scale up the weights of the volumes before it
   for (std::size_t k = 0; k < result.corners.size(); ++k) {
     const float unanswered = left[result.query[k]];
-    if (unanswered <= kNothingLeft) continue;
+    if (unanswered <= kMinRemainingWeight) continue;
     for (float& weight : result.corners[k].weight) weight /= 1.0f - unanswered;
   }
   return traced;

@@ -30,7 +30,7 @@ LAMBENT_FN uint blended_halves(uint word, vec2 now, float blend_weight, float sc
 /// the result, because of rounding or noise, the rays' moments replace it. They also do where
 /// `has_history` is false: distances from before a probe came out of geometry, or went into it, are
 /// useless.
-LAMBENT_FN vec2 moved_moments(vec2 held, vec2 before, vec2 after, bool has_history) {
+LAMBENT_FN vec2 shifted_moments(vec2 held, vec2 before, vec2 after, bool has_history) {
   if (!has_history) return after;
   if (before == after) return held;
   vec2 moved = held + after - before;

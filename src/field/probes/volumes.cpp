@@ -21,7 +21,7 @@ constexpr float kFinestSpacing = 1.0f;  // [m]
 // half a cell, so that small movements back and forth do not scroll the volume each time.
 constexpr float kScrollSlack = 0.75f;
 // A viewer this far off [cells] was teleported, and the volume is moved in one step.
-constexpr float kCarriedAway = 2.0f;
+constexpr float kTeleportDistance = 2.0f;
 // Along axes with fewer probes, kScrollSlack would make the box in which the volume has a weight
 // too small.
 constexpr int kLongAxis = 8;
@@ -30,7 +30,7 @@ constexpr int kLongAxis = 8;
 constexpr float kFadeRate = 1.0f / 32.0f;
 // For each cell that the viewer is off beyond kScrollSlack, the rate grows by this many times
 // kFadeRate.
-constexpr float kHaste = 8.0f;
+constexpr float kFadeCatchUp = 8.0f;
 
 // The farthest place of a probe from the world's origin [cells]: floats count cells up to there.
 constexpr float kFarthestCell = 4194304.0f;
@@ -139,7 +139,7 @@ Step scroll_along(float off, const Range& counts, int count) {
     return {moved, {ahead + kScrollSlack, ahead + last - kScrollSlack}};
   }
   const Range whole = {-kFadeCells, last + kFadeCells};
-  if (std::abs(off) > kCarriedAway) return {cells, whole};
+  if (std::abs(off) > kTeleportDistance) return {cells, whole};
 
   // Neither the slab that is about to be recycled nor its new place may have a weight
   const int wants = std::abs(off) <= kScrollSlack ? 0 : off > 0.0f ? 1 : -1;
@@ -148,7 +148,7 @@ Step scroll_along(float off, const Range& counts, int count) {
                                    : Range{0.0f, last - 1.0f};
   // Move faster, the farther off the viewer is
   const float late = max(std::abs(off) - kScrollSlack, 0.0f);
-  const float rate = kFadeRate * (1.0f + kHaste * late);
+  const float rate = kFadeRate * (1.0f + kFadeCatchUp * late);
   const Range next = {approach(counts.low, target.low, rate),
                       approach(counts.high, target.high, rate)};
   if (wants == 0 || next.low != target.low || next.high != target.high) return {0, next};

@@ -19,8 +19,8 @@ LAMBENT_BEGIN
 // reduction, four per octave; bins by age; probes that were never traced. The bins by error
 // reduction reach from 2^-14, below the reduction at which a probe with the longest memory
 // converges, to 2^10.
-const int kNoPartBin = 0;
-const int kRestBin = 1;
+const int kInactiveBin = 0;
+const int kConvergedBin = 1;
 const int kFirstReductionBin = 2;
 const int kReductionBins = 96;
 const int kFirstOldBin = 98;
@@ -42,7 +42,7 @@ LAMBENT_FN int priority_bin(float urgency) {
     int old = int((urgency - kOldUrgency - 0.5f) * (2.0f * float(kOldBins)));
     return kFirstOldBin + clamp(old, 0, kOldBins - 1);
   }
-  if (urgency <= 0.0f) return kRestBin;
+  if (urgency <= 0.0f) return kConvergedBin;
   float reduction = urgency / (kOldUrgency - urgency);
   int octaves = int(floatBitsToUint(reduction) >> kReductionShift) - kMinReductionStep;
   return kFirstReductionBin + clamp(octaves, 0, kReductionBins - 1);

@@ -54,9 +54,9 @@ namespace {
 
 /// A cache of kernels by their specialisation constants.
 template <class Kernels>
-class KernelShelf {
+class KernelCache {
  public:
-  explicit KernelShelf(const vulkan::Device& device) : device_(device) {}
+  explicit KernelCache(const vulkan::Device& device) : device_(device) {}
 
   const Kernels& get(const FieldSettings& settings, int volumes, int lookups) {
     std::array<std::uint32_t, 6> key{};
@@ -79,19 +79,19 @@ class KernelShelf {
 
 const FieldKernels& FieldKernels::of(const vulkan::Device& device, const FieldSettings& settings,
                                      int volumes, int lookups) {
-  return device.kept<KernelShelf<FieldKernels>>().get(settings, volumes, lookups);
+  return device.kept<KernelCache<FieldKernels>>().get(settings, volumes, lookups);
 }
 
 const VisibilityKernels& VisibilityKernels::of(const vulkan::Device& device,
                                                const FieldSettings& settings, int volumes,
                                                int lookups) {
-  return device.kept<KernelShelf<VisibilityKernels>>().get(settings, volumes, lookups);
+  return device.kept<KernelCache<VisibilityKernels>>().get(settings, volumes, lookups);
 }
 
 const TrainingKernels& TrainingKernels::of(const vulkan::Device& device,
                                            const FieldSettings& settings, int volumes,
                                            int lookups) {
-  return device.kept<KernelShelf<TrainingKernels>>().get(settings, volumes, lookups);
+  return device.kept<KernelCache<TrainingKernels>>().get(settings, volumes, lookups);
 }
 
 FieldKernels::FieldKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,

@@ -16,14 +16,14 @@ const uint kProbeOn = 0u;
 const uint kProbeOff = 1u;  ///< It stands inside geometry.
 
 /// The history and placement of a probe. All zero at first.
-struct ProbeStanding {
+struct RecordedProbe {
   float samples;  ///< Number of updates that its tiles average.
   uint offset;    ///< Offset that applies from its next rays on (encode_probe_offset).
   RelocationState relocation;
   uint placed;  ///< Number of updates that took part in its placement so far.
   uint coarse;  ///< 1: its last estimate is coarse, since new rays were traced after the last edit.
 };
-LAMBENT_DEVICE_ARRAY(StandingArray, ProbeStanding, 4)
+LAMBENT_DEVICE_ARRAY(StandingArray, RecordedProbe, 4)
 
 /// Arrays with one entry per probe of the field.
 struct ProbeStates {
@@ -33,7 +33,7 @@ struct ProbeStates {
 
 /// Whether a probe is left out of an update: it is off, its placement of `placing_updates` updates
 /// is over, and the update does not trace `all` probes.
-LAMBENT_FN bool probe_rests(uint state, uint placed, uint placing_updates, uint all) {
+LAMBENT_FN bool probe_is_skipped(uint state, uint placed, uint placing_updates, uint all) {
   return state == kProbeOff && placed >= placing_updates && all == 0u;
 }
 

@@ -38,7 +38,7 @@ constexpr int kRecycledSets = 8;
 constexpr std::uint32_t kRestUpdates = 8;
 
 // The largest value of Known::traced, above kMaxPlacingUpdates of recorded_field.cpp.
-constexpr int kOften = 255;
+constexpr int kMaxTracedCount = 255;
 
 int most_probes_of(const FieldSettings& settings, const RecordedFieldSettings& recorded,
                    int probes) {
@@ -76,7 +76,7 @@ void BatchPlan::start_from(std::uint32_t updates, std::span<const ProbeStatus> s
   placing_since_ = round_ - placing_updates_;
   for (int probe = 0; probe < probes(); ++probe) {
     Known& known = known_[probe];
-    known.traced = kOften;
+    known.traced = kMaxTracedCount;
     known.least_samples = std::min(statuses[probe].samples, longest_);
     known.of_file = known.least_samples > 0.0f;
     const bool traceable = statuses[probe].state != ProbeState::off;
@@ -149,7 +149,7 @@ ProbeBatch BatchPlan::retrace() {
     Known& known = known_[probe];
     if (known.drawn_in == 0) known.drawn_in = batch.update + 1;
     batch.places = batch.places || known.traced < placing_updates_;
-    known.traced = static_cast<std::uint8_t>(std::min(known.traced + 1, kOften));
+    known.traced = static_cast<std::uint8_t>(std::min(known.traced + 1, kMaxTracedCount));
     known.least_samples = std::min(known.least_samples, 1.0f);
     batch.probes.push_back(probe);
   }
@@ -220,7 +220,7 @@ void BatchPlan::count_samples(ProbeBatch& batch) {
     least = std::min(least, known.least_samples);
     const bool may_move = known.traced < placing_updates_;
     batch.places = batch.places || may_move;
-    known.traced = static_cast<std::uint8_t>(std::min(known.traced + 1, kOften));
+    known.traced = static_cast<std::uint8_t>(std::min(known.traced + 1, kMaxTracedCount));
     known.least_samples = may_move ? 0.0f : std::min(known.least_samples + 1.0f, longest_);
     known.chosen = false;
     known.of_file = false;

@@ -65,7 +65,7 @@ class BatchPlan {
   /// The host's record of a probe.
   struct Known {
     std::uint8_t level = 0;
-    /// Number of updates that traced it since its placement began, at most kOften.
+    /// Number of updates that traced it since its placement began, at most kMaxTracedCount.
     std::uint8_t traced = 0;
     bool chosen = false;         ///< It is in the batch that is being planned.
     bool of_file = false;        ///< It averages rays of another field only.

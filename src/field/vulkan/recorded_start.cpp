@@ -74,9 +74,9 @@ std::string misfit_of_place(const FieldVolume& volume, const ProbeGrid& planned,
   return "";
 }
 
-/// The ProbeStanding of a probe of a file. Its placement is over.
-ProbeStanding standing_of(const ProbeStatus& status, uint offset, float longest, uint placed) {
-  ProbeStanding standing{};
+/// The RecordedProbe of a probe of a file. Its placement is over.
+RecordedProbe standing_of(const ProbeStatus& status, uint offset, float longest, uint placed) {
+  RecordedProbe standing{};
   standing.samples = std::min(status.samples, longest);
   standing.offset = offset;
   standing.relocation = begin_relocation(decode_probe_offset(offset));
@@ -117,7 +117,7 @@ void RecordedField::State::restore(const FieldFile& file) {
   const float longest = longest_average(settings);
   const auto texels = static_cast<std::size_t>(field.tile_texels());
   std::vector<vec4> light(statuses.size() * texels);
-  std::vector<ProbeStanding> stands;
+  std::vector<RecordedProbe> stands;
   std::vector<uint> switched;
   std::vector<ProbeVariability> variability;
   double sum = 0.0;
@@ -136,7 +136,7 @@ void RecordedField::State::restore(const FieldFile& file) {
   write_record();
   field.write_store(store);
   vulkan::write<vec4>(*device, light, field.light());
-  vulkan::write<ProbeStanding>(*device, stands, standing);
+  vulkan::write<RecordedProbe>(*device, stands, standing);
   vulkan::write<uint>(*device, switched, states);
   if (schedule) {
     schedule->start_from(variability,

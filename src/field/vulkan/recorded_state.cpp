@@ -210,7 +210,7 @@ RecordedField::State::State(std::shared_ptr<Device> on, const FieldSettings& of,
   const auto all = static_cast<std::size_t>(shape.probes());
   const auto probes = static_cast<std::size_t>(plan.most_probes());
   const std::size_t ray_room = probes * of.rays_per_probe;
-  standing = device_buffer<ProbeStanding>(*device, all, "standing of probes");
+  standing = device_buffer<RecordedProbe>(*device, all, "standing of probes");
   states = device_buffer<uint>(*device, all, "states of probes");
   rays = device_buffer<RayRecord>(*device, ray_room, "rays of probes");
   hits = device_buffer<HitRecord>(*device, ray_room, "hits of probes' rays");

@@ -170,7 +170,7 @@ void DeviceScene::update_meshes(const Scene& scene) {
 
 void DeviceScene::update_lights(const EmissiveTriangles& emissive, const LightTree& lights) {
   emitter_count_ = static_cast<std::uint32_t>(emissive.size());
-  asked_lights_ = static_cast<std::uint32_t>(lights.asked().size());
+  enumerated_lights_ = static_cast<std::uint32_t>(lights.asked().size());
   tree_size_ = static_cast<std::uint32_t>(lights.nodes().size());
   emitters_.set(device_, emissive.entries(), "emitters");
   lights_.set(device_, lights.lights(), "lights");
@@ -219,7 +219,7 @@ void DeviceScene::update_record(const Environment& environment) {
   record.light_tree.address = light_tree_.address();
   record.light_groups.address = light_groups_.address();
   record.environment.map.texels.address = sky_map_.address();
-  record.asked_count = asked_lights_;
+  record.asked_count = enumerated_lights_;
   record.emitter_count = emitter_count_;
   record.light_tree_size = tree_size_;
   record.environment.radiance = environment.radiance;

@@ -72,7 +72,7 @@ class DeviceScene {
   const MeshRecord& mesh(std::size_t index) const { return mesh_records_[index]; }
 
   /// Number of lights that every point samples.
-  std::uint32_t enumerated_lights() const { return asked_lights_; }
+  std::uint32_t enumerated_lights() const { return enumerated_lights_; }
   /// Number of nodes of the light tree, which holds all others.
   std::uint32_t light_tree_size() const { return tree_size_; }
   bool has_light_tree() const { return tree_size_ > 0; }
@@ -113,7 +113,7 @@ class DeviceScene {
   vulkan::TextureSet texture_set_;
   std::vector<MeshData> mesh_data_;
   std::vector<MeshRecord> mesh_records_;
-  std::uint32_t asked_lights_ = 0, emitter_count_ = 0, tree_size_ = 0;
+  std::uint32_t enumerated_lights_ = 0, emitter_count_ = 0, tree_size_ = 0;
   SkyData sky_data_;
   vulkan::Buffer sky_map_;
   DeviceTable<MaterialRecord> materials_;

@@ -48,6 +48,6 @@ void main() {
   all = sum_of_lanes(lane, sum);
   if (lane == 0u) {
     args.summary.at[kCorrectionMean] = mean;
-    args.summary.at[kCorrectionWorth] = worth_of_samples(CorrectionNoise(all.x, all.y));
+    args.summary.at[kCorrectionWorth] = sample_weight(CorrectionNoise(all.x, all.y));
   }
 }

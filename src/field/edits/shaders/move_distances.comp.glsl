@@ -45,5 +45,5 @@ void main() {
   float unit = distance_unit(args.store.grids.at[volume_of(args.store.grids, probe)]);
   vec2 held = moments_at(index) * vec2(unit, unit * unit);
   bool has_history = !was_blocked && !is_blocked;
-  store_moments(index, moved_moments(held, before, now, has_history), 1.0, 1.0 / unit);
+  store_moments(index, shifted_moments(held, before, now, has_history), 1.0, 1.0 / unit);
 }

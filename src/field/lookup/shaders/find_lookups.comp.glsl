@@ -49,7 +49,7 @@ void main() {
   float gi_share = gi_share_of(point);
   float left = gi_share > 0.0 ? 1.0 : 0.0;
   for (int volume = 0; volume < kVolumes; ++volume) {
-    if (left <= kNothingLeft || found == kLookups) continue;
+    if (left <= kMinRemainingWeight || found == kLookups) continue;
     ProbeGrid grid = args.store.grids.at[volume];
     float volume_weight =
         volume + 1 == kVolumes ? 1.0 : volume_blend_weight(grid, query.position_ws);
@@ -71,7 +71,7 @@ void main() {
   for (int l = 0; l < kLookups; ++l) {
     if (l >= found) {
       args.lookups.at[point.lookup + l].tile_corner = kNoLookup;
-    } else if (left > kNothingLeft) {
+    } else if (left > kMinRemainingWeight) {
       for (int c = 0; c < kCellCorners; ++c) {
         args.lookups.at[point.lookup + l].corners.weight[c] /= 1.0 - left;
       }

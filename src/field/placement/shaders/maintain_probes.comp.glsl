@@ -59,7 +59,7 @@ void sort_planes(int lane) {
 
 /// Takes a step of a probe's relocation. Sets the number of samples of a probe that moves to 0.
 void place(int probe, vec3 spacing, uint inside_geometry) {
-  ProbeStanding standing = args.probes.standing.at[probe];
+  RecordedProbe standing = args.probes.standing.at[probe];
   uint step = placing_step(standing.placed, args.placing_updates);
   if (step == kPlaceLeave) return;
   args.probes.standing.at[probe].placed = ++standing.placed;
@@ -81,7 +81,7 @@ void main() {
   int k = int(gl_WorkGroupID.x);
   int lane = int(gl_LocalInvocationIndex);
   int probe = args.list.at[k];
-  if (probe_rests(args.probes.states.at[probe], args.probes.standing.at[probe].placed,
+  if (probe_is_skipped(args.probes.states.at[probe], args.probes.standing.at[probe].placed,
                   args.placing_updates, args.all)) {
     return;
   }

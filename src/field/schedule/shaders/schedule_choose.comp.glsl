@@ -20,7 +20,7 @@ shared int last_bin;
 void choose() {
   uint wanting = 0u;
   uint live = 0u;
-  for (int bin = kRestBin; bin < kPriorityBins; ++bin) {
+  for (int bin = kConvergedBin; bin < kPriorityBins; ++bin) {
     live += bins[bin];
     if (bin >= kFirstReductionBin) wanting += bins[bin];
   }

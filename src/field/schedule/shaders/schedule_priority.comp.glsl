@@ -34,7 +34,7 @@ int bin_of(int probe, out float deviation) {
                                       args.state.at[0].mean_deviation);
     }
   } else if (args.look == 0u || !waits_too_long(last_traced, args.update)) {
-    return kNoPartBin;
+    return kInactiveBin;
   }
   // Engines do not pass the camera, so that the weight depends on the cascade's level only
   float weight = level_weight(args.levels.at[volume]);

@@ -15,7 +15,7 @@ void main() {
   int k = int(gl_GlobalInvocationID.x);
   if (k >= (args.is_chosen != 0u ? int(args.chosen.at[0]) : args.count)) return;
   int probe = args.list.at[k];
-  if (probe_rests(args.probes.states.at[probe], args.probes.standing.at[probe].placed,
+  if (probe_is_skipped(args.probes.states.at[probe], args.probes.standing.at[probe].placed,
                   args.placing_updates, args.all)) {
     args.blend_weights.at[k] = 0.0;
     return;

@@ -25,7 +25,7 @@ void main() {
   vec3 origin = placed_position(grid, probe_coords(grid, probe), offset);
   Vec3Array directions = args.list.sets.at[args.list.ray_sets.at[k]].directions;
   RayRecord record = probe_ray_record(origin, directions.at[ray]);
-  bool rests = probe_rests(args.probes.states.at[probe], args.probes.standing.at[probe].placed,
+  bool rests = probe_is_skipped(args.probes.states.at[probe], args.probes.standing.at[probe].placed,
                            args.placing_updates, args.all);
   record.mask = rests ? 0u : args.mask;
   args.rays.at[k * args.rays_per_probe + ray] = record;
