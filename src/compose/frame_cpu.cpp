@@ -18,7 +18,6 @@
 #include "field/field_access.h"
 #include "lambent/field.h"
 #include "raytracing/camera_rays.h"
-#include "scene/environment_sampling.h"
 
 namespace lambent {
 namespace {
@@ -75,8 +74,8 @@ struct BandLight {
 };
 
 /// Adds a band's sample to the layers, times `share`.
-void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer,
-                const BandLight& light, const ShownPixels& shown, float share, Layers& layers) {
+void accumulate(const Camera& camera, const GBuffer& gbuffer, const BandLight& light,
+                const ShownPixels& shown, float share, Layers& layers) {
   const CameraRecord record = camera_record(camera, 1, 1);
   parallel_chunks(shown.count, kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
@@ -85,7 +84,7 @@ void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer
       const float passed = light.fog.empty() ? 1.0f : light.fog[i].w;
       add(layers.fog, pixel, share * fog);
       if (gbuffer.hit[i] == 0) {
-        const vec3 sky = sky_radiance(world.scene().environment, -gbuffer.to_viewer_ws[i]);
+        const vec3 sky = gbuffer.surfaces[i].emission;
         add(layers.emission, pixel, share * passed * sky);
         add(layers.all, pixel, share * (passed * sky + fog));
         continue;
@@ -286,8 +285,8 @@ class FramePassesCpu final : public FramePasses {
     light_.is_filtered = settings.denoise && gathers(request());
     light_.coats_are_filtered = settings.denoise && traces_coats(request());
     light_.transmitted_is_filtered = filters_through(request());
-    accumulate(request().world, request().camera, gbuffer_, light_, shown_pixels(band_, settings),
-               share, now_->layers);
+    accumulate(request().camera, gbuffer_, light_, shown_pixels(band_, settings), share,
+               now_->layers);
     if (settings.denoise) {
       BandToFilter band{gbuffer_, light_.direct};
       band.fog = light_.fog;

@@ -9,6 +9,7 @@
 #include "raytracing/camera_rays.h"
 #include "raytracing/ray_cone.h"
 #include "raytracing/world_access.h"
+#include "scene/environment_sampling.h"
 
 namespace lambent {
 
@@ -46,9 +47,13 @@ void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings
       const std::size_t i = begin * width + x;
       gbuffer.to_viewer_ws[i] = -rays[x].direction;
       gbuffer.hit[i] = hits[x].missed() ? 0 : 1;
-      if (hits[x].missed()) continue;
       const RayCone cone =
           camera_cone(record, rays[x].direction, static_cast<uint>(settings.samples), jitter);
+      if (hits[x].missed()) {
+        gbuffer.surfaces[i].emission =
+            sky_radiance_in_cone(sky_of(world), rays[x].direction, cone.spread);
+        continue;
+      }
       gbuffer.surfaces[i] =
           seen_surface_at(world.scene(), rays[x], hits[x], width_at(cone, hits[x].distance));
       Surface& surface = gbuffer.surfaces[i];

@@ -12,6 +12,7 @@
 #include "raytracing/world_access.h"
 #include "scene/light_sampling.h"
 #include "scene/light_tree/light_tree.h"
+#include "scene/sky_levels.h"
 #if LAMBENT_VULKAN
 #include "raytracing/vulkan/device_world.h"
 #endif
@@ -77,6 +78,7 @@ struct World::State::History {
 World::State::State(const Scene& scene, std::shared_ptr<vulkan::Device> lent)
     : emissive(std::make_unique<EmissiveTriangles>(scene)),
       lights(std::make_unique<LightTree>(scene, *emissive)),
+      sky(std::make_unique<SkyLevels>(scene.environment)),
       on_device(make_device_world(scene, *emissive, *lights, std::move(lent))),
       tracer(on_device != nullptr ? shared_tracer(on_device) : make_embree_raytracer(scene)),
       history(std::make_unique<History>()),
@@ -107,6 +109,7 @@ Expected<WorldChanges> World::update() {
   if (edits.emitters_differ || !edits.changes.lights.empty()) {
     state_->lights->update(*scene_, *state_->emissive);
   }
+  state_->sky->update();
   update_tracer(state_->on_device.get(), *state_->tracer, edits, *state_->emissive,
                 *state_->lights);
   if (edits.geometry_differs) {

@@ -12,6 +12,7 @@ class DeviceWorld;
 class EmissiveTriangles;
 class LightTree;
 class RayTracer;
+class SkyLevels;
 struct ScenePose;
 
 struct World::State {
@@ -22,6 +23,7 @@ struct World::State {
   struct History;
   std::unique_ptr<EmissiveTriangles> emissive;
   std::unique_ptr<LightTree> lights;
+  std::unique_ptr<SkyLevels> sky;
   std::shared_ptr<DeviceWorld> on_device;  ///< Null on the processor.
   std::shared_ptr<RayTracer> tracer;       ///< The device's, where there is one.
   std::unique_ptr<History> history;
@@ -46,6 +48,11 @@ inline const EmissiveTriangles& emissive_of(const World& world) {
 /// All lights, and the tree that samples are drawn from. Lives as long as the world.
 inline const LightTree& lights_of(const World& world) {
   return *WorldAccess::state_of(world).lights;
+}
+
+/// The sky, for rays that stand for a cone. Lives as long as the world.
+inline const SkyLevels& sky_of(const World& world) {
+  return *WorldAccess::state_of(world).sky;
 }
 
 /// The poses of all instances. A new object after each update in which geometry differed.

@@ -7,12 +7,26 @@
 
 #include "lambent/scene.h"
 #include "scene/latitude_longitude.h"
+#include "scene/sky_levels.h"
 
 namespace lambent {
 
 // The types and functions that environment.inl.h requires.
 using MapRef = const Image&;
 using EnvironmentRef = const Environment&;
+using SkyRef = const SkyLevels&;
+
+inline const Image& map_of(const Environment& environment) {
+  return environment.map;
+}
+
+inline const Environment& environment_of(const SkyLevels& sky) {
+  return sky.environment();
+}
+
+inline const Image& map_level(const SkyLevels& sky, int level) {
+  return sky.level(level);
+}
 
 inline vec3 fetch_map(const Image& map, int x, int y) {
   const float* p = map.at(x, y);

@@ -51,5 +51,20 @@ LAMBENT_FN MapTexels map_texels(vec2 uv, int width, int height) {
   return texels;
 }
 
+// Rows of a map's coarsest level, at least: its texels are an eighth of a turn wide and high.
+const int kCoarsestRows = 4;
+
+/// How many levels a map of so many rows has, each of half the rows and columns of the one before.
+LAMBENT_FN int map_level_count(int height) {
+  int levels = 1;
+  for (int rows = height / 2; rows >= kCoarsestRows; rows /= 2) ++levels;
+  return levels;
+}
+
+/// Columns or rows of a level of a map that has `size` of them.
+LAMBENT_FN int map_level_size(int size, int level) {
+  return max(size >> level, 1);
+}
+
 LAMBENT_END
 #endif

@@ -11,6 +11,7 @@
 #include "scenes/builtin.h"
 #include "support/floor_behind_a_pane.h"
 #include "support/floor_under_a_pane.h"
+#include "support/hand_made.h"
 #include "support/lit_box.h"
 #include "support/vulkan_device.h"
 
@@ -191,6 +192,29 @@ TEST_F(Frame, WithReflectionsIsTheSame) {
 }
 
 // Rows of a picture rendered in parts take the rays of those above and below on the device, too.
+TEST_F(Frame, UnderAMapOfTheSkyIsTheSame) {
+  Scene scene;
+  scene.materials.resize(1);
+  scene.materials[0].metallic = 1.0f;
+  scene.materials[0].roughness = 0.4f;
+  test::add(scene, test::sphere(1.0f, 16, 0));
+  // Finer than pixels in the middle and coarser than lobes at the edge
+  scene.environment.radiance = {1.0f, 0.5f, 2.0f};
+  scene.environment.map = Image(360, 180, 3);
+  for (int y = 0; y < 180; ++y) {
+    for (int x = 0; x < 360; ++x) {
+      for (int k = 0; k < 3; ++k) {
+        scene.environment.map.at(x, y)[k] = (x / 20 + y / 30) % 4 == k ? 8.0f : 0.25f;
+      }
+    }
+  }
+  scene.cameras.push_back(look_at({0.0f, 0.3f, 4.0f}, {0.0f, 0.0f, 0.0f}, 0.8f));
+  const Frames frames = render_both(scene, small(""));
+  expect_alike(frames);
+  const std::vector<float>& glossy = frames.cpu.find("glossy")->pixels;
+  EXPECT_GT(*std::max_element(glossy.begin(), glossy.end()), 1.0f);
+}
+
 TEST_F(Frame, WithReflectionsIsTheSameInRows) {
   Job job = small("spheres");
   job.frame.first_row = 13;

@@ -120,7 +120,9 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
         coat_distances_[i] = farther_seen(path, coat_distances_[i], hits[k].distance);
       }
       if (hits[k].missed()) {
-        add_radiance(path, sky_radiance(scene.environment, rays[k].direction), rays_[i]);
+        const float spread = paths_.cones[i].spread;
+        add_radiance(path, sky_radiance_in_cone(sky_of(settings.world), rays[k].direction, spread),
+                     rays_[i]);
         path.pdf = 0.0f;
         continue;
       }

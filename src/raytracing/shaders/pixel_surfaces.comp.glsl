@@ -25,7 +25,8 @@ void main() {
                                                 RayCone(0.0f, 0.0f), kSurfaceMissed, 0.0f, 0.0f,
                                                 0.0f);
   if (missed(hit)) {
-    pixel.emission = sky_radiance(args.scene.at[0].environment, ray.direction_ws);
+    pixel.emission = sky_radiance_in_cone(args.scene.at[0].environment, ray.direction_ws,
+                                          args.cones.at[i].spread);
   } else {
     Footprint footprint = {width_at(args.cones.at[i], hit.distance), 1u};
     Surface surface = surface_at(args.scene, ray.direction_ws, hit, footprint);

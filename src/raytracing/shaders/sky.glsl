@@ -5,11 +5,38 @@
 #include "raytracing/vulkan/scene_records.h"
 #include "scene/latitude_longitude.h"
 
-#define MapRef EnvironmentMapRecord
-#define EnvironmentRef EnvironmentRecord
+/// A level of the sky's map, which follows finer ones in the same array.
+struct SkyMapLevel {
+  Vec3Array texels;
+  int first;  ///< The level's first texel.
+  int width;
+  int height;
+};
 
-vec3 fetch_map(EnvironmentMapRecord map, int x, int y) {
-  return map.texels.at[x + map.width * y];
+#define MapRef SkyMapLevel
+#define EnvironmentRef EnvironmentRecord
+#define SkyRef EnvironmentRecord
+
+vec3 fetch_map(SkyMapLevel map, int x, int y) {
+  return map.texels.at[map.first + x + map.width * y];
+}
+
+SkyMapLevel map_of(EnvironmentRecord environment) {
+  return SkyMapLevel(environment.map.texels, 0, environment.map.width, environment.map.height);
+}
+
+EnvironmentRecord environment_of(EnvironmentRecord sky) {
+  return sky;
+}
+
+SkyMapLevel map_level(EnvironmentRecord sky, int level) {
+  SkyMapLevel map = map_of(sky);
+  for (int k = 0; k < level; ++k) {
+    map.first += map.width * map.height;
+    map.width = map_level_size(sky.map.width, k + 1);
+    map.height = map_level_size(sky.map.height, k + 1);
+  }
+  return map;
 }
 
 #include "scene/environment.inl.h"

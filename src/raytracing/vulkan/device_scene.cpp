@@ -5,8 +5,10 @@
 
 #include "raytracing/vulkan/mesh_layout.h"
 #include "scene/attributes.h"
+#include "scene/latitude_longitude.h"
 #include "scene/light_sampling.h"
 #include "scene/light_tree/light_tree.h"
+#include "scene/sky_levels.h"
 #include "scene/texture.h"
 
 namespace lambent {
@@ -197,11 +199,15 @@ void DeviceScene::update_sky(const Environment& environment) {
                           : SkyData{environment.revision, map.pixels.data(), map.width, map.height};
   if (sky_map_.handle() != VK_NULL_HANDLE && now == sky_data_) return;
   std::vector<glm::vec3> texels;
-  if (!map.empty()) texels.reserve(static_cast<std::size_t>(map.width) * map.height);
-  for (int y = 0; y < now.height; ++y) {
-    for (int x = 0; x < now.width; ++x) {
-      const float* p = map.at(x, y);
-      texels.emplace_back(p[0], p[1], p[2]);
+  const SkyLevels sky(environment);
+  const int levels = map.empty() ? 0 : map_level_count(map.height);
+  for (int k = 0; k < levels; ++k) {
+    const Image& level = sky.level(k);
+    for (int y = 0; y < level.height; ++y) {
+      for (int x = 0; x < level.width; ++x) {
+        const float* p = level.at(x, y);
+        texels.emplace_back(p[0], p[1], p[2]);
+      }
     }
   }
   sky_map_ = vulkan::upload(device_, texels, "sky");
