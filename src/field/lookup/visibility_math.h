@@ -14,7 +14,7 @@ LAMBENT_BEGIN
 const int kCellPairs = kCellCorners * (kCellCorners - 1) / 2;
 
 // Of the probes that the heaviest corner of a cell does not see, those with a smaller weight than
-// this count as hidden. Those with a larger weight are tested with a ray.
+// this share count as hidden. Where one has a larger weight, all that have are tested with rays.
 const float kMinTestedWeight = 0.05f;
 
 /// A ray that is occluded where two points do not see each other.
@@ -90,20 +90,23 @@ struct VisibilityMask {
   uint tested;
 };
 
-/// Hybrid visibility. `corners` has weights by distances with a sum of `total`.
+/// Hybrid visibility. `corners` has weights by distances with a sum of `total`. Where two probes
+/// that count do not see each other, either may be the one behind a wall, the heaviest, too: next
+/// to the edge of a door it often is, and which one is heaviest changes from point to point. So
+/// all that count are tested then.
 LAMBENT_FN VisibilityMask visibility_mask(CornerWeights corners, uvec2 cell_visibility,
                                           float total) {
   uint visible = corners_seen_by(cell_visibility, heaviest_corner(corners));
+  uint heavy = 0u;
   VisibilityMask mask = {0u, 0u};
   for (int k = 0; k < kCellCorners; ++k) {
     uint bit = 1u << uint(k);
-    if ((visible & bit) != 0u || corners.weight[k] <= 0.0f) continue;
-    if (corners.weight[k] < kMinTestedWeight * total) {
-      mask.hidden |= bit;
-    } else {
-      mask.tested |= bit;
-    }
+    if (corners.weight[k] <= 0.0f) continue;
+    bool counts = corners.weight[k] >= kMinTestedWeight * total;
+    if (counts) heavy |= bit;
+    if (!counts && (visible & bit) == 0u) mask.hidden |= bit;
   }
+  if ((heavy & ~visible) != 0u) mask.tested = heavy;
   return mask;
 }
 
@@ -112,6 +115,20 @@ LAMBENT_FN void hide_corners(LAMBENT_INOUT(CornerWeights) corners, uint hidden) 
   for (int k = 0; k < kCellCorners; ++k) {
     if ((hidden >> uint(k) & 1u) != 0u) corners.weight[k] = 0.0f;
   }
+}
+
+/// Scales the weights of a lookup to a sum of `total` once the corners that rays found to be
+/// hidden have none. `before` are the weights before that: where nothing is left of them, those
+/// corners stay that the heaviest of them sees.
+LAMBENT_FN CornerWeights tested_weights(CornerWeights before, uint hidden, uvec2 cell_visibility,
+                                        float total) {
+  CornerWeights corners = before;
+  hide_corners(corners, hidden);
+  if (scale_weights(corners, total) != 0) return corners;
+  corners = before;
+  hide_corners(corners, ~corners_seen_by(cell_visibility, heaviest_corner(before)));
+  scale_weights(corners, total);
+  return corners;
 }
 
 /// The corners with a weight above 0, as bits.

@@ -86,8 +86,12 @@ void DeviceVisibility::record_corner_tests(vulkan::Recorder& to, const DeviceTra
   batch.indirect_offset = kRaysRequested * sizeof(uint);
   tracer.occlusions(to, batch, {occluded_.address()});
   to.barrier();
-  const ApplyCornerTestsArguments answered = {
-      store, points, lookups, {tests_.address()}, {occluded_.address()}};
+  const ApplyCornerTestsArguments answered = {store,
+                                              points,
+                                              lookups,
+                                              {cell_visibility_.address()},
+                                              {tests_.address()},
+                                              {occluded_.address()}};
   to.run(kernels_.apply_corner_tests, answered, columns, points.rows);
   to.barrier();
 }
