@@ -27,8 +27,9 @@ void main() {
     CornerWeights corners = args.lookups.at[point.lookup + l].corners;
     float total = sum_of_weights(corners);
     if (args.points.exact == 0u) {
-      int cell = 2 * corners.base;
-      uvec2 cell_visibility = uvec2(args.cell_visibility.at[cell], args.cell_visibility.at[cell + 1]);
+      int first = 2 * corners.base;
+      uvec2 cell_visibility =
+          uvec2(args.cell_visibility.at[first], args.cell_visibility.at[first + 1]);
       args.lookups.at[point.lookup + l].corners =
           tested_weights(corners, hidden, cell_visibility, total);
       continue;
