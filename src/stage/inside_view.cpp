@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <span>
 #include <unordered_set>
 #include <vector>
 
@@ -23,6 +24,10 @@ constexpr float kEyeHeight = 1.6f;
 constexpr float kEyeShareOfHeight = 0.45f;
 // Highest eye in a room of human scale, as a share of its height.
 constexpr float kMaxEyeShareOfHeight = 0.6f;
+
+// Somebody stands on the floor, not on a worktop, under a table or between shelves: where there is
+// at least this share of the height that the middle one of all places has.
+constexpr float kStandingShare = 0.75f;
 
 // Most places from which panoramas are traced.
 constexpr std::size_t kMaxEyes = 110;
@@ -48,8 +53,27 @@ constexpr float kDepthWeight = 2.0f, kDetailWeight = 0.8f, kLitWeight = 0.6f, kN
 // A view with less depth than this share of the diagonal, or with more backs, is rejected.
 constexpr float kMinDepth = 0.06f, kMaxBacks = 0.6f;
 
+float height_of(const OpenPlace& place) {
+  return place.ceiling - place.floor;
+}
+
+/// The first places, up to so many, in which somebody could stand.
+std::vector<OpenPlace> standing_places(std::span<const OpenPlace> sheltered, std::size_t most) {
+  if (sheltered.empty()) return {};
+  std::vector<float> heights(sheltered.size());
+  std::transform(sheltered.begin(), sheltered.end(), heights.begin(), height_of);
+  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+  std::nth_element(heights.begin(), middle, heights.end());
+  std::vector<OpenPlace> standing;
+  for (const OpenPlace& place : sheltered) {
+    if (standing.size() == most) break;
+    if (height_of(place) >= kStandingShare * *middle) standing.push_back(place);
+  }
+  return standing;
+}
+
 glm::vec3 eye_at(const OpenPlace& place) {
-  const float height = place.ceiling - place.floor;
+  const float height = height_of(place);
   float eye = kEyeShareOfHeight * height;
   if (height >= kMinRoomHeight && height <= kMaxRoomHeight) {
     eye = std::min(kEyeHeight, kMaxEyeShareOfHeight * height);
@@ -148,12 +172,13 @@ float score_view(const Scene& scene, const Panorama& panorama, int direction, fl
 std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
                                   const Bounds& bounds, float vertical_fov, float aspect) {
   const float scale = diagonal(bounds);
-  const std::size_t eyes = std::min(survey.sheltered.size(), kMaxEyes);
+  const std::vector<OpenPlace> places = standing_places(survey.sheltered, kMaxEyes);
+  const std::size_t eyes = places.size();
   constexpr std::size_t kPanoramaRays = kRings.size() * kRingRays;
   std::vector<Ray> rays;
   rays.reserve(eyes * kPanoramaRays);
   for (std::size_t e = 0; e < eyes; ++e) {
-    const glm::vec3 eye = eye_at(survey.sheltered[e]);
+    const glm::vec3 eye = eye_at(places[e]);
     for (const float elevation : kRings) {
       for (int i = 0; i < kRingRays; ++i) {
         const float azimuth = kTwoPi * static_cast<float>(i) / kRingRays;

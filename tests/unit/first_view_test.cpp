@@ -73,6 +73,26 @@ TEST(FirstView, LooksDownOnThingsFromTheFront) {
   EXPECT_LT(eye.y, eye.z);
 }
 
+TEST(FirstView, OfKitchensStandsOnTheirFloors) {
+  for (int i = 0; i < 12; ++i) {
+    const float wide = 3.2f + 0.15f * static_cast<float>(i);
+    // Worktops with cupboards above them, and a table; lamps light the worktops
+    Scene scene = scene_of({box_mesh({0, 0, 0}, {wide, 2.5f, 3.4f}, true),
+                            box_mesh({0, 0, 0}, {wide - 0.9f, 0.92f, 0.63f}),
+                            box_mesh({0, 1.47f, 0}, {wide - 0.9f, 2.2f, 0.35f}),
+                            box_mesh({wide - 0.85f, 0, 0}, {wide - 0.05f, 1.9f, 0.7f}),
+                            box_mesh({1.2f, 0.72f, 1.8f}, {wide - 0.6f, 0.75f, 2.6f}),
+                            box_mesh({0.05f, 1.455f, 0.12f}, {wide - 1, 1.469f, 0.15f})});
+    scene.materials.push_back(scene.materials[0]);
+    scene.materials[1].emission = vec3(40.0f);
+    scene.meshes.back().material = 1;
+    const FirstView view = first_view(World(scene)).value();
+    ASSERT_TRUE(view.inside);
+    // At 0.6 of the room's height
+    EXPECT_NEAR(eye_of(view.camera).y, 1.5f, 0.01f) << wide;
+  }
+}
+
 TEST(FirstView, FitsObjectsOfAnyShapeSizeAndPlace) {
   const glm::vec3 sizes[] = {{1, 1, 1}, {20, 1, 1}, {1, 20, 1}, {1, 1, 20}, {10, 10, 0.1f}};
   for (const float scale : {1e-4f, 1.0f, 1e4f}) {

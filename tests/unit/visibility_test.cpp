@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "field/field_access.h"
@@ -13,7 +14,7 @@
 #include "raytracing/camera_rays.h"
 #include "raytracing/surface.h"
 #include "raytracing/world_access.h"
-#include "shared/random.h"
+#include "stage/survey.h"
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"
 
@@ -101,6 +102,83 @@ TEST(Visibility, HybridEqualsMomentsWithoutARayWhereAllProbesSeeEachOther) {
     EXPECT_TRUE(same(hybrid[i], moments[i])) << i;
   }
   EXPECT_GT(open, 100);
+}
+
+/// Two rooms on both sides of a wall of 4 cm with a doorway, whose door is ajar.
+Scene rooms_with_a_door_ajar() {
+  Mesh door = test::box_mesh({0.0f, -3.0f, 0.0f}, {0.04f, -1.0f, 0.9f});
+  for (glm::vec3& p : door.positions)
+    p = {0.77f * p.x + 0.64f * p.z, p.y, 0.77f * p.z - 0.64f * p.x};
+  Scene scene = test::scene_of({test::box_mesh(vec3(-3.0f), vec3(3.0f), true),
+                                test::box_mesh({-0.02f, -3.0f, -3.0f}, {0.02f, 3.0f, 0.0f}),
+                                test::box_mesh({-0.02f, -3.0f, 0.9f}, {0.02f, 3.0f, 3.0f}),
+                                test::box_mesh({-0.02f, -1.0f, 0.0f}, {0.02f, 3.0f, 0.9f}), door});
+  scene.environment.radiance = vec3(1.0f);
+  return scene;
+}
+
+/// Points of wall and door, seen by viewers at both sides of their normals.
+std::vector<FieldQuery> points_at_the_door(const Scene& scene) {
+  const std::uint32_t parts[] = {1, 2, 3, 4};
+  std::vector<FieldQuery> queries;
+  for (const SurfacePoint& point : sample_surfaces(scene, parts, 40000)) {
+    const float turn = static_cast<float>(queries.size());
+    const vec3 aside(std::cos(turn), 0.0f, std::sin(turn));
+    queries.push_back(
+        {point.position_ws, point.normal_ws, normalize(point.normal_ws + 0.9f * aside)});
+  }
+  return queries;
+}
+
+TEST(Visibility, HybridDropsTheHeaviestProbeWhereARayFindsItHiddenAndAnotherOneSeen) {
+  const Stage stage(rooms_with_a_door_ajar());
+  const Traced traced(stage);
+  const ProbeStore& store = store_of(traced.field);
+  const ProbeGrid& grid = store.grid(0);
+  const float smallest = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+  const std::vector<FieldQuery> queries = points_at_the_door(stage.world.scene());
+  const auto moments = traced.weights(stage, Visibility::moments, queries);
+  const auto hybrid = traced.weights(stage, Visibility::hybrid, queries);
+  const CornerOffsets& offsets = store.corner_table()[0];
+  int dropped = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const FieldQuery& q = queries[i];
+    const vec3 start =
+        biased_position(q.position_ws, q.normal_ws, q.to_viewer_ws, q.viewer_distance, smallest);
+    const auto sees = [&](int corner) {
+      const vec3 way = store.probe_position_ws(moments[i].base + offsets.probe[corner]) - start;
+      return !tracer_of(stage.world).occluded({start, 0.0f, normalize(way), length(way)});
+    };
+    const int heaviest = heaviest_corner(moments[i]);
+    const uint mutual = corners_seen_by(traced.cell_visibility.of_cell(moments[i].base), heaviest);
+    bool contested = false;
+    for (int k = 0; k < 8; ++k) {
+      const bool counts = moments[i].weight[k] >= kMinTestedWeight;
+      contested = contested || (counts && (mutual >> k & 1u) == 0u && sees(k));
+    }
+    if (!contested || sees(heaviest)) continue;
+    ++dropped;
+    EXPECT_EQ(hybrid[i].weight[heaviest], 0.0f) << i;
+  }
+  EXPECT_GT(dropped, 20);
+}
+
+TEST(Visibility, HybridBelievesTheHeaviestProbeWhereRaysReachNone) {
+  CornerWeights corners{};
+  corners.weight[0] = 0.6f;
+  corners.weight[1] = 0.25f;
+  corners.weight[2] = 0.15f;
+  // Corner 0 sees 1, and neither sees 2
+  uvec2 cell = without_pair(without_pair(all_visible(), {0, 2}), {1, 2});
+  const VisibilityMask mask = visibility_mask(corners, cell, 1.0f);
+  EXPECT_EQ(mask.tested, 7u);
+  EXPECT_EQ(mask.hidden, 0u);
+  const CornerWeights none = tested_weights(corners, 7u, cell, 1.0f);
+  EXPECT_NEAR(none.weight[0], 0.6f / 0.85f, 1e-6f);
+  EXPECT_NEAR(none.weight[1], 0.25f / 0.85f, 1e-6f);
+  EXPECT_EQ(none.weight[2], 0.0f);
+  const CornerWeights last = tested_weights(corners, 3u, cell, 1.0f);
+  EXPECT_EQ(last.weight[2], 1.0f);
 }
 
 TEST(Visibility, HybridFallsBackToMomentsWithoutAWorld) {

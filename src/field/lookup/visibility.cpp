@@ -100,19 +100,24 @@ std::uint64_t hybrid_weights(const ProbeStore& store, int volume, const Visibili
                              std::span<const FieldQuery> queries, std::span<CornerWeights> result) {
   corner_weights(store, volume, queries, result);
   CornerRays rays(store, volume);
-  std::vector<std::size_t> checked;
+  // The corners that rays find to be hidden, as bits, of each query
+  std::vector<uint> hidden(queries.size(), 0u);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const uvec2& cell = by.cell_visibility->of_cell(result[i].base);
     if (cell == all_visible()) continue;
     const VisibilityMask mask = visibility_mask(result[i], cell, 1.0f);
     hide_corners(result[i], mask.hidden);
+    // The heaviest corner is not among these, so that a sum remains
+    if (mask.hidden != 0u) scale_weights(result[i], 1.0f);
     rays.add(queries[i], i, mask.tested);
-    checked.push_back(i);
   }
   const std::uint64_t traced = rays.trace(
-      *by.tracer, [&](const CornerTest& test) { result[test.query].weight[test.corner] = 0.0f; });
-  // The heaviest corner always keeps its weight, so that the sum stays above 0
-  for (const std::size_t i : checked) scale_weights(result[i], 1.0f);
+      *by.tracer, [&](const CornerTest& test) { hidden[test.query] |= 1u << test.corner; });
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    if (hidden[i] == 0u) continue;
+    result[i] =
+        tested_weights(result[i], hidden[i], by.cell_visibility->of_cell(result[i].base), 1.0f);
+  }
   return traced;
 }
 

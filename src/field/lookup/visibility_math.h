@@ -13,8 +13,9 @@ LAMBENT_BEGIN
 // The number of pairs of probes of a cell.
 const int kCellPairs = kCellCorners * (kCellCorners - 1) / 2;
 
-// A probe that is not visible from the cell's heaviest corner is tested with a ray if its weight is
-// at least this share of the sum of weights, and counts as hidden otherwise.
+// Probes that are not visible from the cell's heaviest corner count as hidden if their weight is
+// below this share of the sum of weights. Where one has a larger weight, all that have are tested
+// with rays.
 const float kMinTestedWeight = 0.05f;
 
 /// A ray that is occluded where two points are not visible to each other.
@@ -90,20 +91,23 @@ struct VisibilityMask {
   uint tested;
 };
 
-/// Hybrid visibility. `corners` has weights by distances with a sum of `total`.
+/// Hybrid visibility. `corners` has weights by distances with a sum of `total`. Where two probes
+/// that count do not see each other, either may be the one behind a wall, the heaviest, too: next
+/// to the edge of a door it often is, and which one is heaviest changes from point to point. So
+/// all that count are tested then.
 LAMBENT_FN VisibilityMask visibility_mask(CornerWeights corners, uvec2 cell_visibility,
                                           float total) {
   uint visible = corners_seen_by(cell_visibility, heaviest_corner(corners));
+  uint heavy = 0u;
   VisibilityMask mask = {0u, 0u};
   for (int k = 0; k < kCellCorners; ++k) {
     uint bit = 1u << uint(k);
-    if ((visible & bit) != 0u || corners.weight[k] <= 0.0f) continue;
-    if (corners.weight[k] < kMinTestedWeight * total) {
-      mask.hidden |= bit;
-    } else {
-      mask.tested |= bit;
-    }
+    if (corners.weight[k] <= 0.0f) continue;
+    bool counts = corners.weight[k] >= kMinTestedWeight * total;
+    if (counts) heavy |= bit;
+    if (!counts && (visible & bit) == 0u) mask.hidden |= bit;
   }
+  if ((heavy & ~visible) != 0u) mask.tested = heavy;
   return mask;
 }
 
@@ -112,6 +116,20 @@ LAMBENT_FN void hide_corners(LAMBENT_INOUT(CornerWeights) corners, uint hidden) 
   for (int k = 0; k < kCellCorners; ++k) {
     if ((hidden >> uint(k) & 1u) != 0u) corners.weight[k] = 0.0f;
   }
+}
+
+/// Scales the weights of a lookup to a sum of `total` once the corners that rays found to be
+/// hidden have none. `before` are the weights before that: where nothing is left of them, those
+/// corners stay that the heaviest of them sees.
+LAMBENT_FN CornerWeights tested_weights(CornerWeights before, uint hidden, uvec2 cell_visibility,
+                                        float total) {
+  CornerWeights corners = before;
+  hide_corners(corners, hidden);
+  if (scale_weights(corners, total) != 0) return corners;
+  corners = before;
+  hide_corners(corners, ~corners_seen_by(cell_visibility, heaviest_corner(before)));
+  scale_weights(corners, total);
+  return corners;
 }
 
 /// The corners with a weight above 0, as bits.

@@ -240,6 +240,7 @@ struct ApplyCornerTestsArguments {
   StoreArrays store;
   LookupPoints points;
   LookupArray lookups;
+  UintArray cell_visibility;
   CornerTestArray tests;
   UintArray occluded;
   UintArray counter;

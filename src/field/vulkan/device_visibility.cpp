@@ -144,8 +144,13 @@ void DeviceVisibility::record_corner_tests(vulkan::Recorder& to, const DeviceTra
   tracer.occlusions(to, requested_rays(points_ * lookups_a_point_ * kCellCorners),
                     {occluded_.address()});
   to.barrier();
-  const ApplyCornerTestsArguments answered = {
-      store, points, lookups, {tests_.address()}, {occluded_.address()}, {counter_.address()}};
+  const ApplyCornerTestsArguments answered = {store,
+                                              points,
+                                              lookups,
+                                              {cell_visibility_.address()},
+                                              {tests_.address()},
+                                              {occluded_.address()},
+                                              {counter_.address()}};
   to.run(kernels_.apply_corner_tests, answered, columns, points.rows);
   to.barrier();
 }

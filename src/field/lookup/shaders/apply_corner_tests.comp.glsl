@@ -26,7 +26,15 @@ void main() {
     }
     CornerWeights corners = args.lookups.at[point.lookup + l].corners;
     float total = sum_of_weights(corners);
-    if (args.points.exact != 0u) corners = visible_corners(corners, query_of(point));
+    if (args.points.exact == 0u) {
+      int first = 2 * corners.base;
+      uvec2 cell_visibility =
+          uvec2(args.cell_visibility.at[first], args.cell_visibility.at[first + 1]);
+      args.lookups.at[point.lookup + l].corners =
+          tested_weights(corners, hidden, cell_visibility, total);
+      continue;
+    }
+    corners = visible_corners(corners, query_of(point));
     hide_corners(corners, hidden);
     // Where no probe is visible, the weights by distances stay
     if (scale_weights(corners, total) != 0) args.lookups.at[point.lookup + l].corners = corners;

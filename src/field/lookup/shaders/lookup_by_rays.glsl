@@ -2,43 +2,46 @@
 // The lookup of the irradiance field with visibility by rays that are traced at once. The includer
 // provides what field/lookup/lookup.inl.h asks for, includes that, and has
 //   uvec2 fetch_cell_visibility(int lowest)
-//       which corners see each other of the cell whose lowest probe this is, all_visible()
+//       the visibility between the corners of the cell whose lowest probe this is
 //   bool field_occluded(vec3 origin_ws, vec3 direction_ws, float distance)
-//       whether a ray meets anything nearer than this [m]
+//       whether a ray hits anything nearer than this [m]
 #ifndef LAMBENT_FIELD_LOOKUP_SHADERS_LOOKUP_BY_RAYS_GLSL
 #define LAMBENT_FIELD_LOOKUP_SHADERS_LOOKUP_BY_RAYS_GLSL
 
 #include "field/lookup/visibility_math.h"
 #include "field/lookup/visibility.inl.h"
 
-/// The weights of the corners around a point. With `exact` all corners are asked with rays, else
-/// those alone that distances leave in doubt.
+/// The weights of the corners around a point. With `exact`, all corners are tested with rays;
+/// otherwise only those whose visibility the distances leave in doubt.
 CornerWeights seen_corners(LookupGrid volume, LookupCell cell, vec3 position_ws, vec3 normal_ws,
                            bool exact) {
   CornerWeights by_distances;
   for (int k = 0; k < kCellCorners; ++k) {
     by_distances.weight[k] = lookup_weight(volume, cell, cell_corner(k), position_ws, normal_ws);
   }
+  float total = sum_of_weights(by_distances);
 
-  // Find which corners count as hidden without a ray, and which are asked with one
+  // Find the corners that count as hidden without a ray, and those to test with one
   CornerWeights corners = by_distances;
-  uint tested;
+  uvec2 cell_visibility = fetch_cell_visibility(probe_index(volume.grid, cell.cell.base));
+  VisibilityMask mask = {0u, 0u};
   if (exact) {
     corners = visible_corners(volume, cell, corners, position_ws, normal_ws);
-    tested = weighed_corners(corners);
+    mask.tested = weighed_corners(corners);
   } else {
-    uvec2 seen = fetch_cell_visibility(probe_index(volume.grid, cell.cell.base));
-    VisibilityMask mask = visibility_mask(corners, seen, sum_of_weights(corners));
+    mask = visibility_mask(corners, cell_visibility, total);
     hide_corners(corners, mask.hidden);
-    tested = mask.tested;
   }
-  for (; tested != 0u; tested &= tested - 1u) {
+
+  // Trace the rays of this lookup
+  uint hidden = 0u;
+  for (uint tested = mask.tested; tested != 0u; tested &= tested - 1u) {
     int corner = findLSB(tested);
     RayRecord ray = corner_ray(volume.grid, cell, corner);
-    if (field_occluded(ray.origin_ws, ray.direction_ws, ray.t_max)) {
-      hide_corners(corners, 1u << uint(corner));
-    }
+    if (field_occluded(ray.origin_ws, ray.direction_ws, ray.t_max)) hidden |= 1u << uint(corner);
   }
+  if (!exact) return tested_weights(corners, hidden, cell_visibility, total);
+  hide_corners(corners, hidden);
   // Where no probe is visible, the weights by distances stay
   return sum_of_weights(corners) > 0.0f ? corners : by_distances;
 }
