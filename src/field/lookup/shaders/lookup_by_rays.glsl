@@ -23,12 +23,13 @@ CornerWeights seen_corners(LookupGrid volume, LookupCell cell, vec3 position_ws,
 
   // Find the corners that count as hidden without a ray, and those to test with one
   CornerWeights corners = by_distances;
-  uvec2 cell_visibility = fetch_cell_visibility(probe_index(volume.grid, cell.cell.base));
-  VisibilityMask mask = {0u, 0u};
+  uvec2 cell_visibility = all_visible();
+  VisibilityMask mask = VisibilityMask(0u, 0u);
   if (exact) {
     corners = visible_corners(volume, cell, corners, position_ws, normal_ws);
     mask.tested = weighed_corners(corners);
   } else {
+    cell_visibility = fetch_cell_visibility(probe_index(volume.grid, cell.cell.base));
     mask = visibility_mask(corners, cell_visibility, total);
     hide_corners(corners, mask.hidden);
   }
