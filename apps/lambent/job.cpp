@@ -20,11 +20,11 @@ namespace {
 #if LAMBENT_MPI
 
 // What the launcher is told where a process ends all others (docs/cli.md).
-constexpr int kFailed = 1;
+constexpr int kJobFailed = 1;
 
 [[noreturn]] void end_job(const MpiRanks& ranks, const std::string& why) {
   tell_error("rank " + std::to_string(ranks.own()) + ": " + why);
-  MpiRanks::end_job(kFailed);
+  MpiRanks::end_job(kJobFailed);
 }
 
 /// The first process that failed of itself tells why, the others say nothing. It does so now: once

@@ -15,7 +15,7 @@ namespace lambent::stream {
 namespace {
 
 // Between two looks at what there is to publish, and whether anybody wants to join.
-constexpr std::chrono::milliseconds kLook{5};
+constexpr std::chrono::milliseconds kPublisherLook{5};
 constexpr std::chrono::milliseconds kConnectTimeout{5'000};
 // Who joins gets all that there is; more wait for their turn, and ask again.
 constexpr std::size_t kMaxJoining = 16;
@@ -77,11 +77,11 @@ class NatsPublisher : public BrokerPublisher {
 
   /// Waits for a while.
   void take_joins() {
-    for (auto wait = kLook;; wait = std::chrono::milliseconds(1)) {
+    for (auto wait = kPublisherLook;; wait = std::chrono::milliseconds(1)) {
       const auto message = next_message(joins_, wait);
       if (!message) {
         tell(message.error().message());
-        std::this_thread::sleep_for(kLook);
+        std::this_thread::sleep_for(kPublisherLook);
         return;
       }
       if (!*message) return;

@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Between two looks at whether somebody has woken it.
-constexpr std::chrono::milliseconds kLook{10};
+constexpr std::chrono::milliseconds kSubscriberLook{10};
 // An answer to a request to join comes sooner; else it was lost, or the server has no room.
 constexpr std::chrono::seconds kAskAgain{3};
 // Of the stream, while the answer to a request to join is under way.
@@ -63,7 +63,7 @@ class NatsSubscriber : public Client {
   Expected<std::optional<Message>> receive(std::chrono::milliseconds timeout) override {
     const auto end = Clock::now() + timeout;
     do {
-      auto message = step(std::min<std::chrono::milliseconds>(timeout, kLook));
+      auto message = step(std::min<std::chrono::milliseconds>(timeout, kSubscriberLook));
       if (!message || *message) return message;
     } while (Clock::now() < end && !woken_.exchange(false));
     return std::nullopt;
