@@ -20,11 +20,11 @@ namespace {
 #if LAMBENT_MPI
 
 // Exit status for the launcher when a process ends all others (docs/cli.md).
-constexpr int kFailed = 1;
+constexpr int kJobFailed = 1;
 
 [[noreturn]] void end_job(const MpiRanks& ranks, const std::string& why) {
   tell_error("rank " + std::to_string(ranks.own()) + ": " + why);
-  MpiRanks::end_job(kFailed);
+  MpiRanks::end_job(kJobFailed);
 }
 
 /// Only the first process that has failed with a cause of its own prints it. It does so now, since

@@ -15,7 +15,7 @@ namespace lambent::stream {
 namespace {
 
 // Interval at which messages to publish and requests to join are polled.
-constexpr std::chrono::milliseconds kLook{5};
+constexpr std::chrono::milliseconds kPublisherLook{5};
 constexpr std::chrono::milliseconds kConnectTimeout{5'000};
 // Maximum number of clients that join at a time, each of which gets the whole state; others ask
 // again.
@@ -78,11 +78,11 @@ class NatsPublisher : public BrokerPublisher {
 
   /// Answers requests to join; waits for kLook for the first one.
   void take_joins() {
-    for (auto wait = kLook;; wait = std::chrono::milliseconds(1)) {
+    for (auto wait = kPublisherLook;; wait = std::chrono::milliseconds(1)) {
       const auto message = next_message(joins_, wait);
       if (!message) {
         tell(message.error().message());
-        std::this_thread::sleep_for(kLook);
+        std::this_thread::sleep_for(kPublisherLook);
         return;
       }
       if (!*message) return;

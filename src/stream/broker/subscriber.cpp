@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Interval at which `wake` is polled.
-constexpr std::chrono::milliseconds kLook{10};
+constexpr std::chrono::milliseconds kSubscriberLook{10};
 // Time after which a request to join is repeated: it was lost, or the server is full.
 constexpr std::chrono::seconds kAskAgain{3};
 // Maximum number of the stream's messages that are queued while the answer to a request to join is
@@ -64,7 +64,7 @@ class NatsSubscriber : public Client {
   Expected<std::optional<Message>> receive(std::chrono::milliseconds timeout) override {
     const auto end = Clock::now() + timeout;
     do {
-      auto message = step(std::min<std::chrono::milliseconds>(timeout, kLook));
+      auto message = step(std::min<std::chrono::milliseconds>(timeout, kSubscriberLook));
       if (!message || *message) return message;
     } while (Clock::now() < end && !woken_.exchange(false));
     return std::nullopt;
