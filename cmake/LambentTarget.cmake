@@ -16,6 +16,10 @@ function(lambent_compile_options target)
     target_compile_options(${target} PRIVATE -fsanitize=${LAMBENT_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=${LAMBENT_SANITIZE})
   endif()
+  if(LAMBENT_PRECOMPILE)
+    # What ccache asks for, to keep what was compiled with precompiled headers
+    target_compile_options(${target} PRIVATE $<IF:$<CXX_COMPILER_ID:GNU>,-fpch-preprocess,SHELL:-Xclang -fno-pch-timestamp>)
+  endif()
   if(LAMBENT_UNITY AND NOT arg_ALONE)
     # Called when all folders have added their sources
     cmake_language(EVAL CODE "cmake_language(DEFER DIRECTORY \"${PROJECT_SOURCE_DIR}\" CALL lambent_unite ${target})")
