@@ -14,15 +14,16 @@ using test::GltfBuilder;
 using test::Json;
 using testing::SizeIs;
 
-GltfBuilder with_material(const Json& material) {
+GltfBuilder builder_with(const Json& material) {
   GltfBuilder builder;
   builder.show(builder.triangle());
   builder.append("materials", material);
   return builder;
 }
 
-Material only_material(const Json& material) {
-  const Expected<Scene> scene = with_material(material).load();
+/// The material as it is imported, which reads the older model as the newer one.
+Material converted_material(const Json& material) {
+  const Expected<Scene> scene = builder_with(material).load();
   EXPECT_TRUE(scene) << error_of(scene);
   return scene ? scene->materials.at(0) : Material{};
 }
@@ -33,7 +34,7 @@ Reflectance reflectance_of(const Material& m) {
 }
 
 TEST(GltfSpecularGlossiness, ReflectsTheSpecularColor) {
-  const Material m = only_material(Json::parse(R"({
+  const Material m = converted_material(Json::parse(R"({
     "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1], "metallicFactor": 1},
     "extensions": {"KHR_materials_pbrSpecularGlossiness": {
       "diffuseFactor": [0.125, 0.25, 0.5, 0.75], "specularFactor": [0.5, 0.25, 0.04],
@@ -46,8 +47,8 @@ TEST(GltfSpecularGlossiness, ReflectsTheSpecularColor) {
   EXPECT_EQ(r.f90, 1.0f);
 
   // The defaults are white, as smooth as can be
-  const Material plain =
-      only_material(Json::parse(R"({"extensions": {"KHR_materials_pbrSpecularGlossiness": {}}})"));
+  const Material plain = converted_material(
+      Json::parse(R"({"extensions": {"KHR_materials_pbrSpecularGlossiness": {}}})"));
   EXPECT_EQ(plain.base_color, glm::vec4(1.0f));
   EXPECT_EQ(plain.specular_color, glm::vec3(1.0f));
   EXPECT_EQ(plain.roughness, 0.0f);
@@ -55,7 +56,7 @@ TEST(GltfSpecularGlossiness, ReflectsTheSpecularColor) {
 }
 
 TEST(GltfSpecularGlossiness, HasItsGlossinessInTheAlphaOfATexture) {
-  GltfBuilder builder = with_material(Json::parse(R"({"extensions": {
+  GltfBuilder builder = builder_with(Json::parse(R"({"extensions": {
     "KHR_materials_pbrSpecularGlossiness": {
       "glossinessFactor": 0.5, "diffuseTexture": {"index": 0},
       "specularGlossinessTexture": {"index": 0, "texCoord": 1}}}})"));
@@ -83,7 +84,7 @@ TEST(GltfSpecularGlossiness, HasItsGlossinessInTheAlphaOfATexture) {
 }
 
 TEST(GltfMaterials, WithAnIndexOfRefractionOfZeroReflectAllLight) {
-  const Material m = only_material(Json::parse(R"({
+  const Material m = converted_material(Json::parse(R"({
     "pbrMetallicRoughness": {"metallicFactor": 0},
     "extensions": {"KHR_materials_ior": {"ior": 0},
                    "KHR_materials_specular": {"specularColorFactor": [0.5, 0.25, 0.125]}}})"));
