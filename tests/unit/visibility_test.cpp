@@ -121,7 +121,7 @@ Scene rooms_with_a_door_ajar() {
 std::vector<FieldQuery> points_at_the_door(const Scene& scene) {
   const std::uint32_t parts[] = {1, 2, 3, 4};
   std::vector<FieldQuery> queries;
-  for (const SurfacePoint& point : sample_surfaces(scene, parts, 40000)) {
+  for (const SurfaceSample& point : sample_surfaces(scene, parts, 40000)) {
     const float turn = static_cast<float>(queries.size());
     const vec3 aside(std::cos(turn), 0.0f, std::sin(turn));
     queries.push_back(
