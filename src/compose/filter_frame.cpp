@@ -54,15 +54,15 @@ bool filter_lobes(DenoiseView view, FilteredPixels& pixels, FilteredCoats& coats
 /// highlights, pixels that differ by more than noise are not averaged.
 void filter_coats(DenoiseView view, FilteredPixels& pixels) {
   view.normals_ws = pixels.clearcoats.normals_ws;
-  filter_lobes(view, pixels, pixels.clearcoats);
+  const bool any_clearcoats = filter_lobes(view, pixels, pixels.clearcoats);
   view.normals_ws = pixels.normals_ws;
-  const bool any = filter_lobes(view, pixels, pixels.coats);
-  if (!any || pixels.highlights.empty()) {
+  const bool any_coats = filter_lobes(view, pixels, pixels.coats);
+  if (!(any_clearcoats || any_coats) || pixels.highlights.empty()) {
     pixels.filtered_highlights = pixels.highlights;
     return;
   }
   pixels.filtered_highlights.resize(pixels.highlights.size());
-  view.lobes = {pixels.to_viewer_ws, pixels.highlight_alphas, pixels.coats.inverse_distances};
+  view.lobes = {pixels.to_viewer_ws, pixels.highlight_alphas, pixels.highlight_inverse_distances};
   [[maybe_unused]] const Expected<void> done = pixels.denoiser.filter(
       view, {pixels.highlights, {}, {}}, emitter_denoising(), pixels.filtered_highlights);
   assert(done);
@@ -133,12 +133,18 @@ void show_coat(const FilteredCoats& coats, std::size_t i, std::size_t pixel, flo
   add(layers.all, pixel, glossy);
 }
 
+/// Whether rays light a coat at a pixel that keep_coats has been called for.
+bool has_rays(const FilteredCoats& coats, std::size_t pixel) {
+  return !coats.alphas.empty() && coats.alphas[pixel] > 0.0f;
+}
+
 /// Stores the specular light of emitters of a band; called after keep_all_coats().
 void keep_highlights(const BandToFilter& light, std::size_t first, std::size_t count,
                      FilteredPixels& pixels) {
   pixels.highlights.resize(count);
   pixels.highlight_albedo.resize(count);
   pixels.highlight_alphas.resize(count);
+  pixels.highlight_inverse_distances.resize(count);
   const GBuffer& gbuffer = light.gbuffer;
   parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -149,10 +155,15 @@ void keep_highlights(const BandToFilter& light, std::size_t first, std::size_t c
       if (gbuffer.hit[i] == 0) continue;
       const Reflectance& reflectance = gbuffer.surfaces[i].reflectance;
       vec3 albedo(1.0f);
-      if (light.coats != nullptr && pixels.coats.alphas[pixel] > 0.0f) {
+      const bool by_coat = has_rays(pixels.coats, pixel);
+      const bool by_clearcoat = has_rays(pixels.clearcoats, pixel);
+      if (by_coat || by_clearcoat) {
         albedo = filtered_coat_albedo(
             reflectance, dot(gbuffer.surfaces[i].normal_ws, gbuffer.to_viewer_ws[i]), 1.0f);
         pixels.highlight_alphas[pixel] = highlight_alpha(reflectance);
+        pixels.highlight_inverse_distances[pixel] =
+            by_coat ? pixels.coats.inverse_distances[pixel]
+                    : pixels.clearcoats.inverse_distances[pixel];
       }
       const float passed = passed_by_fog(light, i);
       pixels.highlights[pixel] = light.direct.emitter_specular[i] / albedo;

@@ -46,6 +46,7 @@ struct FilteredPixels {
   // lobes have a width of highlight_alpha()
   std::vector<glm::vec3> highlights, highlight_albedo;
   std::vector<float> highlight_alphas;
+  std::vector<float> highlight_inverse_distances;  ///< See CoatLight; valid where alphas are not 0.
   // Light once filtered
   std::vector<glm::vec3> filtered_gathered, filtered_excess, filtered_emitters, filtered_highlights;
 

@@ -31,20 +31,24 @@ bool keep_coat(uint i, uint pixel, LitPointRecord point, PixelSurfaceRecord surf
 
 /// Stores the specular light of emitters.
 void keep_highlight(uint i, uint pixel, LitPointRecord point, PixelSurfaceRecord surface,
-                    bool has_rays, float passed) {
+                    bool coat_has_rays, float passed) {
   args.pixels.at[0].highlights.at[pixel] = vec3(0.0f);
   args.pixels.at[0].highlight_albedo.at[pixel] = vec3(0.0f);
   args.pixels.at[0].highlight_lobes.at[pixel].sharpness = 0.0f;
   if ((surface.flags & kSurfaceMissed) != 0u) return;
   vec3 albedo = vec3(1.0f);
-  if (has_rays) {
+  bool clearcoat_has_rays = (args.has & kClearcoatsAreFiltered) != 0u &&
+                            args.pixels.at[0].clearcoat_lobes.at[pixel].sharpness > 0.0f;
+  if (coat_has_rays || clearcoat_has_rays) {
     float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
     albedo = filtered_coat_albedo(surface.reflectance, n_dot_v, 1.0f);
     float alpha = highlight_alpha(surface.reflectance);
     if (alpha > 0.0f) {
+      float inverse_distance = coat_has_rays
+                                   ? args.coat_inverse_distances.at[i]
+                                   : args.pixels.at[0].clearcoat_lobes.at[pixel].inverse_distance;
       args.pixels.at[0].highlight_lobes.at[pixel] =
-          lobe_guide(point.normal_ws, surface.to_viewer_ws, alpha,
-                     args.coat_inverse_distances.at[i]);
+          lobe_guide(point.normal_ws, surface.to_viewer_ws, alpha, inverse_distance);
     }
   }
   args.pixels.at[0].highlights.at[pixel] = args.emitter_specular.at[i] / albedo;
