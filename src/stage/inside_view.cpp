@@ -25,8 +25,9 @@ constexpr float kEyeShareOfHeight = 0.45f;
 // Highest eye in a room of human scale, as a share of its height.
 constexpr float kMaxEyeShareOfHeight = 0.6f;
 
-// Somebody stands on the floor, not on a worktop, under a table or between shelves: where there is
-// at least this share of the height that the middle one of all places has.
+// An observer stands on the floor, not on a worktop, under a table or between shelves: where there
+// is at least this share of the median height of all places. In rooms whose heights look like
+// metres, kMinRoomHeight is enough: aisles and galleries beside a high hall are places, too.
 constexpr float kStandingShare = 0.75f;
 
 // Most places from which panoramas are traced.
@@ -57,17 +58,24 @@ float height_of(const OpenPlace& place) {
   return place.ceiling - place.floor;
 }
 
-/// The first places, up to so many, in which somebody could stand.
+/// Whether a height is that of a room in metres.
+bool is_room_height(float height) {
+  return height >= kMinRoomHeight && height <= kMaxRoomHeight;
+}
+
+/// The first places, at most `most`, where an observer could stand.
 std::vector<OpenPlace> standing_places(std::span<const OpenPlace> sheltered, std::size_t most) {
   if (sheltered.empty()) return {};
   std::vector<float> heights(sheltered.size());
   std::transform(sheltered.begin(), sheltered.end(), heights.begin(), height_of);
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
+  const auto median = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+  std::nth_element(heights.begin(), median, heights.end());
+  float least = kStandingShare * *median;
+  if (is_room_height(*median)) least = std::min(least, kMinRoomHeight);
   std::vector<OpenPlace> standing;
   for (const OpenPlace& place : sheltered) {
     if (standing.size() == most) break;
-    if (height_of(place) >= kStandingShare * *middle) standing.push_back(place);
+    if (height_of(place) >= least) standing.push_back(place);
   }
   return standing;
 }
@@ -75,7 +83,7 @@ std::vector<OpenPlace> standing_places(std::span<const OpenPlace> sheltered, std
 glm::vec3 eye_at(const OpenPlace& place) {
   const float height = height_of(place);
   float eye = kEyeShareOfHeight * height;
-  if (height >= kMinRoomHeight && height <= kMaxRoomHeight) {
+  if (is_room_height(height)) {
     eye = std::min(kEyeHeight, kMaxEyeShareOfHeight * height);
   }
   return {place.position_ws.x, place.floor + eye, place.position_ws.z};

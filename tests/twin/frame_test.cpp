@@ -298,7 +298,7 @@ TEST_F(Frame, WithFilteredReflectionsIsTheSame) {
   Job job = small("");
   job.frame.denoise = true;
   Scene scene = test::floor_under_a_pane();
-  scene.materials[0].clearcoat = 0.5f;
+  scene.materials[0].clearcoat = 1.0f;
   scene.materials[0].clearcoat_roughness = 0.4f;
   // Over a glossy base, and over one so rough that rays light the clearcoat alone
   for (const float roughness : {scene.materials[0].roughness, 1.0f}) {
@@ -307,7 +307,9 @@ TEST_F(Frame, WithFilteredReflectionsIsTheSame) {
     EXPECT_LE(relative_rmse(frames, "glossy"), kTolerance) << roughness;
     Job noisy = job;
     noisy.frame.denoise = false;
-    EXPECT_GT(relative_rmse({frames.cpu, render_both(scene, noisy).device}, "glossy"), 0.02)
+    // Filtering makes a difference, the less the more of the light is the field's
+    EXPECT_GT(relative_rmse({frames.cpu, render_both(scene, noisy).device}, "glossy"),
+              1.5 * kTolerance)
         << roughness;
   }
 }
