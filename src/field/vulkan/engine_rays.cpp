@@ -80,14 +80,14 @@ void RecordedField::State::EngineRays::schedule(Recorder& to) {
 
 void RecordedField::State::EngineRays::trace(Recorder& to, int) {
   assert(tracer_);
-  RayBatch batch;
-  batch.rays = {s_.rays.address()};
-  batch.count = s_.ray_count();
+  RayBatch probe_rays;
+  probe_rays.rays = {s_.rays.address()};
+  probe_rays.count = s_.ray_count();
   if (s_.batch.on_device) {
-    batch.indirect = &s_.schedule->state();
-    batch.indirect_offset = kOverLaunch * sizeof(GroupCounts);
+    probe_rays.indirect = &s_.schedule->state();
+    probe_rays.indirect_offset = kOverLaunch * sizeof(GroupCounts);
   }
-  tracer_->closest_hits(to, batch, {s_.hits.address()});
+  tracer_->closest_hits(to, probe_rays, {s_.hits.address()});
 }
 
 /// Makes surfels from the engine's results, and computes the blend weights.
