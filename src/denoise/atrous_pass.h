@@ -98,11 +98,13 @@ LAMBENT_FN LobeGuide lobe_guide(vec3 normal_ws, vec3 to_viewer_ws, float alpha,
   return guide;
 }
 
-/// A number, or 0 where it is not finite, which its bits tell: compilers of shaders may take every
-/// number for finite.
+// The bits of a float's exponent. All of them are set in numbers that are not finite.
+const uint kFloatExponentBits = 0x7f800000u;
+
+/// A number, or 0 where it is not finite, which its bits tell: compilers of shaders may assume that
+/// every number is finite.
 LAMBENT_FN float finite_or_dark(float value) {
-  const uint kExponent = 0x7f800000u;
-  return (floatBitsToUint(value) & kExponent) == kExponent ? 0.0f : value;
+  return (floatBitsToUint(value) & kFloatExponentBits) == kFloatExponentBits ? 0.0f : value;
 }
 
 /// Light as the first pass reads it, where channels that are not finite count as dark: the passes

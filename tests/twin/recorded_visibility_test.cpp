@@ -30,7 +30,7 @@ FieldSettings settings_of(Visibility visibility) {
 
 /// Two rooms, an engine that renders them, and our own world of them on the device.
 struct Rooms {
-  Rooms(const char* name, std::shared_ptr<vulkan::Device> device)
+  Rooms(const char* name, const std::shared_ptr<vulkan::Device>& device)
       : stage(name), there(stage.scene, device), structure(*device, stage.scene) {}
 
   test::HostEngine engine() const { return {stage.world, stage.scene, structure.handle()}; }
