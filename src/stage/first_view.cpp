@@ -17,8 +17,8 @@ namespace {
 constexpr float kObjectFov = 45.0f;
 constexpr float kRoomFov = 60.0f;
 
-// The grid of rays that looks for surfaces: what is smaller in a picture than its cells is a speck
-// to people, too. Rows are cut in pictures much higher than they are wide.
+// Rays along a row of the grid that tests whether a view shows any surface. What is smaller than a
+// cell of the grid looks like a speck. The number of rows is limited for very tall pictures.
 constexpr int kRaysAlongRow = 128;
 constexpr float kMostRows = 1024.0f;
 

@@ -91,10 +91,10 @@ struct VisibilityMask {
   uint tested;
 };
 
-/// Hybrid visibility. `corners` has weights by distances with a sum of `total`. Where two probes
-/// that count do not see each other, either may be the one behind a wall, the heaviest, too: next
-/// to the edge of a door it often is, and which one is heaviest changes from point to point. So
-/// all that count are tested then.
+/// Hybrid visibility. `corners` has weights by distances with a sum of `total`. Where a corner with
+/// a large weight is not visible from the heaviest one, either of the two may be behind a wall.
+/// Next to the edge of a door the heaviest one often is, and which corner that is changes from
+/// point to point. All corners with a large weight are therefore tested.
 LAMBENT_FN VisibilityMask visibility_mask(CornerWeights corners, uvec2 cell_visibility,
                                           float total) {
   uint visible = corners_seen_by(cell_visibility, heaviest_corner(corners));
@@ -118,9 +118,9 @@ LAMBENT_FN void hide_corners(LAMBENT_INOUT(CornerWeights) corners, uint hidden) 
   }
 }
 
-/// Scales the weights of a lookup to a sum of `total` once the corners that rays found to be
-/// hidden have none. `before` are the weights before that: where nothing is left of them, those
-/// corners stay that the heaviest of them sees.
+/// The weights of a lookup after its rays, with a sum of `total`: those of `before`, without the
+/// corners in `hidden`, given as bits. Where no weight would be left, the corners keep theirs that
+/// are visible from the heaviest one.
 LAMBENT_FN CornerWeights tested_weights(CornerWeights before, uint hidden, uvec2 cell_visibility,
                                         float total) {
   CornerWeights corners = before;
