@@ -35,7 +35,7 @@ LAMBENT_FN AmbientIrradiance ambient_irradiance(int volumes, vec3 position_ws, v
   Frame around_ray = make_frame(direction_ws);
   for (int volume = 0; volume < volumes && sum.weight < 1.0f; ++volume) {
     ProbeGrid grid = fetch_grid(volume);
-    float weight = volume + 1 == volumes ? 1.0f : volume_blend_weight(grid, position_ws);
+    float weight = volume_share(grid, volume, volumes, position_ws);
     if (weight <= 0.0f) continue;
     add_volume(grid, weight * (1.0f - sum.weight), position_ws, around_ray, sum);
   }

@@ -5,7 +5,7 @@
 #ifndef LAMBENT_FIELD_LOOKUP_LOOKUP_H
 #define LAMBENT_FIELD_LOOKUP_LOOKUP_H
 
-#include "field/probes/probe_grid.h"
+#include "field/lookup/lookup_records.h"
 #include "field/probes/tile.h"
 
 LAMBENT_BEGIN

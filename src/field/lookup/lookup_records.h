@@ -21,10 +21,15 @@ struct CornerWeights {
   float weight[kCellCorners];
 };
 
+LAMBENT_FN float sum_of_weights(CornerWeights corners) {
+  float sum = 0.0f;
+  LAMBENT_UNROLL for (int k = 0; k < kCellCorners; ++k) sum += corners.weight[k];
+  return sum;
+}
+
 /// Scales weights to a sum of 1. Leaves them as they are where all are 0.
 LAMBENT_FN void normalize_weights(LAMBENT_INOUT(CornerWeights) corners) {
-  float sum = 0.0f;
-  for (int k = 0; k < kCellCorners; ++k) sum += corners.weight[k];
+  float sum = sum_of_weights(corners);
   float scale = sum > 0.0f ? 1.0f / sum : 0.0f;
   for (int k = 0; k < kCellCorners; ++k) corners.weight[k] *= scale;
 }

@@ -15,11 +15,6 @@ namespace {
 // between the two kernels.
 constexpr std::size_t kBatch = 256;
 
-bool has_no_weight(const CornerWeights& corners) {
-  return std::all_of(std::begin(corners.weight), std::end(corners.weight),
-                     [](float weight) { return weight == 0.0f; });
-}
-
 /// The weights in a field of several volumes: looks up each volume for the queries in which it has
 /// a weight.
 std::uint64_t find_blended(const ProbeStore& store, const VisibilityRays& by,
@@ -33,14 +28,13 @@ std::uint64_t find_blended(const ProbeStore& store, const VisibilityRays& by,
   std::vector<CornerWeights> corners;
   std::uint64_t traced = 0;
   for (int volume = 0; volume < store.volumes(); ++volume) {
-    const bool last = volume == store.volumes() - 1;
     asking.clear();
     which.clear();
     volume_weights.clear();
     for (std::size_t i = 0; i < queries.size(); ++i) {
       if (left[i] <= kMinRemainingWeight) continue;
       const float volume_weight =
-          last ? 1.0f : volume_blend_weight(store.grid(volume), queries[i].position_ws);
+          volume_share(store.grid(volume), volume, store.volumes(), queries[i].position_ws);
       if (volume_weight <= 0.0f) continue;
       asking.push_back(queries[i]);
       which.push_back(static_cast<std::uint32_t>(i));
@@ -50,7 +44,7 @@ std::uint64_t find_blended(const ProbeStore& store, const VisibilityRays& by,
     traced += visible_corner_weights(store, volume, by, asking, corners);
     for (std::size_t k = 0; k < asking.size(); ++k) {
       // Where no probe of this volume is visible, the next volumes take its weight
-      if (has_no_weight(corners[k])) continue;
+      if (sum_of_weights(corners[k]) == 0.0f) continue;
       const float volume_weight = left[which[k]] * volume_weights[k];
       left[which[k]] -= volume_weight;
       for (float& weight : corners[k].weight) weight *= volume_weight;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lookup over all volumes of a field, in order: each volume takes the share
-// volume_blend_weight() of the weight that the volumes before it have left, and the last one takes
-// the rest. This is a partition of unity for any number of volumes that overlap in any way.
+// The lookup over all volumes of a field, in order: each volume takes volume_share() of the weight
+// that the volumes before it have left. This is a partition of unity for any number of volumes that
+// overlap in any way.
 #pragma once
 
 #include <cstdint>

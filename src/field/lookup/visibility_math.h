@@ -68,12 +68,6 @@ LAMBENT_FN int heaviest_corner(CornerWeights corners) {
   return heaviest;
 }
 
-LAMBENT_FN float sum_of_weights(CornerWeights corners) {
-  float sum = 0.0f;
-  for (int k = 0; k < kCellCorners; ++k) sum += corners.weight[k];
-  return sum;
-}
-
 /// Scales weights to a sum of `total`. Returns 0 where all weights are 0, else 1.
 LAMBENT_FN int scale_weights(LAMBENT_INOUT(CornerWeights) corners, float total) {
   float sum = sum_of_weights(corners);

@@ -120,6 +120,12 @@ LAMBENT_FN float volume_blend_weight(ProbeGrid grid, vec3 position_ws) {
   return clamp(min(weight.x, min(weight.y, weight.z)), 0.0f, 1.0f);
 }
 
+/// The share that a volume takes of the weight which the volumes before it leave at a point: its
+/// blend weight, or all of it in the last of `volumes`.
+LAMBENT_FN float volume_share(ProbeGrid grid, int volume, int volumes, vec3 position_ws) {
+  return volume + 1 == volumes ? 1.0f : volume_blend_weight(grid, position_ws);
+}
+
 const int kCellCorners = 8;
 
 /// Corner 0..7 of a cell as an offset: bit 0 is x, bit 1 is y, bit 2 is z.

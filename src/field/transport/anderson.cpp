@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "field/transport/anderson.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <utility>
@@ -15,9 +15,11 @@ namespace {
 
 constexpr std::size_t kTexelsPerTask = 16384;
 
-constexpr std::size_t kDepth = kAndersonDepth;
-// kAndersonRidge in double precision.
-constexpr double kRidge = 1e-10;
+/// A double as the sum of two floats, which holds 48 of its 53 bits.
+Wide to_wide(double value) {
+  const auto high = static_cast<float>(value);
+  return {high, static_cast<float>(value - high)};
+}
 
 /// Calls body(begin, end) for the parts of the chunks of `size` texels that lie within
 /// [first, last), in their order.
@@ -113,7 +115,7 @@ void add_scaled(const WorkingIrradiance& a, float scale, const WorkingIrradiance
 }
 
 void AndersonMemory::push(WorkingIrradiance residual_change, WorkingIrradiance image_change) {
-  if (residual_changes_.size() == kDepth) {
+  if (residual_changes_.size() == std::size_t{kAndersonDepth}) {
     residual_changes_.erase(residual_changes_.begin());
     image_changes_.erase(image_changes_.begin());
   }
@@ -123,24 +125,30 @@ void AndersonMemory::push(WorkingIrradiance residual_change, WorkingIrradiance i
 
 void AndersonMemory::extrapolate(const SharedTexels& texels, const WorkingIrradiance& residual,
                                  WorkingIrradiance& next) const {
-  const auto steps = static_cast<Eigen::Index>(residual_changes_.size());
-  assert(static_cast<float>(kRidge) == kAndersonRidge);
-  if (steps == 0) return;
-  Eigen::MatrixXd gram(steps, steps);
-  Eigen::VectorXd projection(steps);
-  for (Eigen::Index i = 0; i < steps; ++i) {
-    for (Eigen::Index j = 0; j <= i; ++j) {
-      gram(i, j) = gram(j, i) = texels.inner_product(residual_changes_[i], residual_changes_[j]);
+  const auto steps = static_cast<int>(residual_changes_.size());
+  std::array<std::array<double, kAndersonDepth>, kAndersonDepth> gram = {};
+  double largest = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      gram[i][j] = texels.inner_product(residual_changes_[i], residual_changes_[j]);
     }
-    projection(i) = texels.inner_product(residual_changes_[i], residual);
+    largest = std::max(largest, gram[i][i]);
   }
-  const double largest = gram.diagonal().maxCoeff();
   if (largest <= 0.0) return;
-  gram.diagonal().array() += kRidge * largest;
-  const Eigen::VectorXd coefficients = gram.ldlt().solve(projection);
-  for (Eigen::Index i = 0; i < steps; ++i) {
-    add_scaled(next, -static_cast<float>(coefficients(i)), image_changes_[i], next);
+
+  // Solve for the coefficients in units of the largest squared step, which floats may not
+  // hold in very dark or very bright scenes
+  StepProducts products = {};
+  for (int i = 0; i < steps; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      const Wide product = to_wide(gram[i][j] / largest);
+      products.gram[kAndersonDepth * i + j] = products.gram[kAndersonDepth * j + i] = product;
+    }
+    products.projection[i] =
+        to_wide(texels.inner_product(residual_changes_[i], residual) / largest);
   }
+  const vec3 coefficients = step_coefficients(products, steps);
+  for (int i = 0; i < steps; ++i) add_scaled(next, -coefficients[i], image_changes_[i], next);
 }
 
 }  // namespace lambent

@@ -26,14 +26,8 @@ float fetch_correction(ProbeGrid grid, int volume, vec3 position_ws, vec3 normal
 CornerWeights lookup_weights(LookupGrid in_volume, int volume, QueryRecord query) {
   LookupCell cell = lookup_cell(in_volume, query.position_ws, query.normal_ws, query.to_viewer_ws,
                                 query.viewer_distance);
-  ivec3 base = cell.cell.base;
-  CornerWeights weights;
-  weights.base = probe_index(in_volume.grid, base);
-  weights.table = uint(kCellWraps * volume + cell_wrap(in_volume.grid, base));
-  for (int k = 0; k < kCellCorners; ++k) {
-    weights.weight[k] =
-        lookup_weight(in_volume, cell, cell_corner(k), query.position_ws, query.normal_ws);
-  }
+  CornerWeights weights = corner_weights(in_volume, cell, query.position_ws, query.normal_ws);
+  weights.table = uint(kCellWraps * volume + cell_wrap(in_volume.grid, cell.cell.base));
   normalize_weights(weights);
   return weights;
 }
@@ -51,8 +45,7 @@ void main() {
   for (int volume = 0; volume < kVolumes; ++volume) {
     if (left <= kMinRemainingWeight || found == kLookups) continue;
     ProbeGrid grid = args.store.grids.at[volume];
-    float volume_weight =
-        volume + 1 == kVolumes ? 1.0 : volume_blend_weight(grid, query.position_ws);
+    float volume_weight = volume_share(grid, volume, kVolumes, query.position_ws);
     if (volume_weight <= 0.0) continue;
     CornerWeights corners = lookup_weights(lookup_grid(grid), volume, query);
     // Where no probe of this volume is visible, the next volumes take its weight

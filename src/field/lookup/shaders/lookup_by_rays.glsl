@@ -15,10 +15,7 @@
 /// otherwise only those whose visibility the distances leave in doubt.
 CornerWeights seen_corners(LookupGrid volume, LookupCell cell, vec3 position_ws, vec3 normal_ws,
                            bool exact) {
-  CornerWeights by_distances;
-  for (int k = 0; k < kCellCorners; ++k) {
-    by_distances.weight[k] = lookup_weight(volume, cell, cell_corner(k), position_ws, normal_ws);
-  }
+  CornerWeights by_distances = corner_weights(volume, cell, position_ws, normal_ws);
   float total = sum_of_weights(by_distances);
 
   // Find the corners that count as hidden without a ray, and those to test with one
@@ -47,34 +44,19 @@ CornerWeights seen_corners(LookupGrid volume, LookupCell cell, vec3 position_ws,
   return sum_of_weights(corners) > 0.0f ? corners : by_distances;
 }
 
-/// lookup_volume() with these weights.
-vec4 lookup_volume_by_rays(ProbeGrid grid, int volume_index, float volume_weight, vec3 position_ws,
-                           vec3 normal_ws, vec3 to_viewer_ws, bool exact) {
-  LookupGrid volume = lookup_grid(grid);
-  LookupCell cell = lookup_cell(volume, position_ws, normal_ws, to_viewer_ws, infinity());
-  CornerWeights corners = seen_corners(volume, cell, position_ws, normal_ws, exact);
-  float weight_sum = sum_of_weights(corners);
-  if (!(weight_sum > 0.0f)) return vec4(0.0f);
-  vec3 sum = vec3(0.0f);
-  for (int k = 0; k < kCellCorners; ++k) {
-    if (corners.weight[k] <= 0.0f) continue;
-    int probe = probe_index(grid, cell.cell.base + cell_corner(k));
-    sum += fetch_irradiance(probe, normal_ws) * corners.weight[k];
-  }
-  float ratio = fetch_correction(grid, volume_index, position_ws, normal_ws);
-  return vec4(sum * (ratio * volume_weight / weight_sum), volume_weight);
-}
-
 /// lookup_irradiance() with these weights.
 vec3 lookup_irradiance_by_rays(int volumes, vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws,
                                bool exact) {
   vec4 answer = vec4(0.0f);
   for (int volume = 0; volume < volumes && answer.w < 1.0f; ++volume) {
     ProbeGrid grid = fetch_grid(volume);
-    float volume_weight = volume + 1 == volumes ? 1.0f : volume_blend_weight(grid, position_ws);
+    float volume_weight = volume_share(grid, volume, volumes, position_ws) * (1.0f - answer.w);
     if (volume_weight <= 0.0f) continue;
-    answer += lookup_volume_by_rays(grid, volume, volume_weight * (1.0f - answer.w), position_ws,
-                                    normal_ws, to_viewer_ws, exact);
+    LookupGrid looked_up = lookup_grid(grid);
+    LookupCell cell = lookup_cell(looked_up, position_ws, normal_ws, to_viewer_ws, infinity());
+    CornerWeights corners = seen_corners(looked_up, cell, position_ws, normal_ws, exact);
+    answer += irradiance_of_corners(grid, volume, volume_weight, cell, corners, position_ws,
+                                    normal_ws);
   }
   return answer.w > 0.0f ? vec3(answer) / answer.w : vec3(0.0f);
 }
