@@ -36,7 +36,7 @@ LightCandidate ByPower::draw(const LitPoint& point, RandomStream& random) const 
   const glm::vec3 to_light = offset / std::sqrt(squared);
   const float cosine = std::abs(glm::dot(drawn.normal_ws, to_light));
   return {to_light, std::sqrt(squared),
-          drawn.radiance * passes_clearcoat(drawn.clearcoat, cosine) *
+          drawn.radiance * clearcoat_transmittance(drawn.clearcoat, cosine) *
               (cosine / (squared * drawn.pdf_area * probability)),
           1};
 }

@@ -264,8 +264,8 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
     vec3 coat_normal =
         seen_normal(facing, normal_from_object * coat.normal, material.clearcoat_normal_texture);
     place_clearcoat(surface.reflectance.layers, surface.normal_ws, coat_normal, direction_ws);
-    surface.emission *=
-        passes_clearcoat(surface.reflectance.layers, surface.reflectance.layers.clearcoat_cosine);
+    surface.emission *= clearcoat_transmittance(surface.reflectance.layers,
+                                                surface.reflectance.layers.clearcoat_cosine);
   }
   surface.transmission = transmission_of(material, optics, bool(hit.front_face));
   surface.material = uint(mesh.material);

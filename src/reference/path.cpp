@@ -107,7 +107,7 @@ void PathIntegrator::add_emissive(const Vertex& vertex, const glm::vec3& u,
   if (cosine <= 0.0f || !vertex.is_lit_from(to_light) || light.radiance == glm::vec3(0.0f)) return;
   const float light_pdf = light.pdf_area * squared_distance / cosine;
   lighting.add({to_light, distance * (1.0f - kShadowRayShortening),
-                light.radiance * (passes_clearcoat(light.clearcoat, cosine) *
+                light.radiance * (clearcoat_transmittance(light.clearcoat, cosine) *
                                   drawn_weight(light_pdf, vertex.pdf(to_light)) / light_pdf),
                 false});
 }

@@ -21,7 +21,7 @@ struct GatherRow {
   Planes light;       ///< kLightPlanes planes, of one value each.
   /// kDirectionPlanes planes for the mean direction of the light, where the light will be blurred;
   /// otherwise null. Sums over every kTexelsPerDirection-th texel, which is enough for a mean.
-  Planes ways;
+  Planes directions;
   int count = 0;  ///< Number of pixels; up to the next multiple of kLanes are written.
 };
 
@@ -57,8 +57,9 @@ void sum_terms(const ConstPlanes& points, int count, std::span<const RsmTexel> t
 inline constexpr int kTexelFields = 10;
 
 /// Adds one texel to each of kLanes pixels of a row from `first` on, given the texels' fields.
-/// `ways`: also adds the vectors to them.
-void gather_fetched(const GatherRow& row, int first, const float (*fields)[kLanes], bool ways);
+/// `directions`: also adds the vectors to them.
+void gather_fetched(const GatherRow& row, int first, const float (*fields)[kLanes],
+                    bool directions);
 
 /// A disk of samples around each pixel's projection, for pixels of different sub-maps.
 struct DiskGather {

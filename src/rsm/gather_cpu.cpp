@@ -40,9 +40,10 @@ void sum_terms(const ConstPlanes& points, int count, std::span<const RsmTexel> t
   kernel(points, count, texels.data(), texels.size(), sums);
 }
 
-void gather_fetched(const GatherRow& row, int first, const float (*fields)[kLanes], bool ways) {
+void gather_fetched(const GatherRow& row, int first, const float (*fields)[kLanes],
+                    bool directions) {
   static const auto kernel = LAMBENT_BEST_LEVEL(add_fetched);
-  kernel(row, first, fields, ways);
+  kernel(row, first, fields, directions);
 }
 
 void make_reorientable(const GatherRow& row) {

@@ -95,7 +95,8 @@ void gather_disk(const GatherRow& row, const DiskGather& disk, int first_column,
         read_sample(disk, maps, l, sub_row, middle[l] + sample.offset,
                     sample.weight * static_cast<float>(subs), fields);
       }
-      gather_fetched(row, i, fields, row.ways.first != nullptr && k % kTexelsPerDirection == 0);
+      gather_fetched(row, i, fields,
+                     row.directions.first != nullptr && k % kTexelsPerDirection == 0);
     }
   }
 }

@@ -6,23 +6,25 @@
 /// Pixels that gather light, in registers.
 struct GatherLanes : GuideLanes {
   Lanes light[kLightPlanes];
-  Lanes ways[kDirectionPlanes];
+  Lanes directions[kDirectionPlanes];
 };
 
-LAMBENT_FORCE_INLINE void load_light(GatherLanes& p, const GatherRow& row, int i, bool ways) {
+LAMBENT_FORCE_INLINE void load_light(GatherLanes& p, const GatherRow& row, int i, bool directions) {
   for (int c = 0; c < kLightPlanes; ++c) load(p.light[c], row.light.at(c) + i);
-  for (int c = 0; c < kDirectionPlanes && ways; ++c) load(p.ways[c], row.ways.at(c) + i);
+  for (int c = 0; c < kDirectionPlanes && directions; ++c)
+    load(p.directions[c], row.directions.at(c) + i);
 }
 
 LAMBENT_FORCE_INLINE void clear_light(GatherLanes& p) {
   for (Lanes& light : p.light) light = Lanes{};
-  for (Lanes& way : p.ways) way = Lanes{};
+  for (Lanes& direction : p.directions) direction = Lanes{};
 }
 
 LAMBENT_FORCE_INLINE void store_light(const GatherLanes& p, const GatherRow& row, int i,
-                                      bool ways) {
+                                      bool directions) {
   for (int c = 0; c < kLightPlanes; ++c) store(row.light.at(c) + i, p.light[c]);
-  for (int c = 0; c < kDirectionPlanes && ways; ++c) store(row.ways.at(c) + i, p.ways[c]);
+  for (int c = 0; c < kDirectionPlanes && directions; ++c)
+    store(row.directions.at(c) + i, p.directions[c]);
 }
 
 /// The fields of a texel that a gather reads; flux is over pi. `T` is a float where all pixels read
@@ -33,7 +35,7 @@ struct TexelFields {
 };
 
 /// The vector from a pixel to a texel, and terms that depend on it.
-struct Way {
+struct TexelSightLanes {
   Lanes x, y, z;       // [m]
   Lanes below_texel;   // negative height of the pixel over the texel's plane [m]
   Lanes fourth_power;  // of the softened distance [m^4]
@@ -43,29 +45,29 @@ struct Way {
 /// Computes the vector to a texel, and pi times the numerator of bounded_geometry_term(), whose
 /// denominator is way.fourth_power.
 template <class T>
-LAMBENT_FORCE_INLINE void texel_numerator(Lanes& numerator, Way& way, const GatherLanes& p,
-                                          const TexelFields<T>& t) {
-  way.x = t.x - p.x;
-  way.y = t.y - p.y;
-  way.z = t.z - p.z;
-  way.below_texel = t.nx * way.x + t.ny * way.y + t.nz * way.z;
-  const Lanes above_point = p.nx * way.x + p.ny * way.y + p.nz * way.z;
+LAMBENT_FORCE_INLINE void texel_numerator(Lanes& numerator, TexelSightLanes& sight,
+                                          const GatherLanes& p, const TexelFields<T>& t) {
+  sight.x = t.x - p.x;
+  sight.y = t.y - p.y;
+  sight.z = t.z - p.z;
+  sight.below_texel = t.nx * sight.x + t.ny * sight.y + t.nz * sight.z;
+  const Lanes above_point = p.nx * sight.x + p.ny * sight.y + p.nz * sight.z;
   const Lanes c = -(p.nx * t.nx + p.ny * t.ny + p.nz * t.nz);
-  const Lanes square = way.x * way.x + way.y * way.y + way.z * way.z + t.softening;
+  const Lanes square = sight.x * sight.x + sight.y * sight.y + sight.z * sight.z + t.softening;
   const Lanes compensation =
       kSofteningCorner + c * (kSofteningLinear + c * (kSofteningSquare + c * kSofteningCube));
-  way.fourth_power = square * square;
-  way.lit = (way.below_texel < 0.0f) & (above_point > 0.0f);
-  numerator = t.softening * compensation - way.below_texel * above_point;
+  sight.fourth_power = square * square;
+  sight.lit = (sight.below_texel < 0.0f) & (above_point > 0.0f);
+  numerator = t.softening * compensation - sight.below_texel * above_point;
 }
 
 /// Pi times bounded_geometry_term().
 template <class T>
 LAMBENT_FORCE_INLINE void texel_term(Lanes& term, const GatherLanes& p, const TexelFields<T>& t) {
-  Way way;
-  texel_numerator(term, way, p, t);
-  term /= way.fourth_power;
-  keep(term, way.lit);
+  TexelSightLanes sight;
+  texel_numerator(term, sight, p, t);
+  term /= sight.fourth_power;
+  keep(term, sight.lit);
 }
 
 template <class T>
@@ -75,25 +77,25 @@ LAMBENT_FORCE_INLINE void add_light(GatherLanes& p, const TexelFields<T>& t, con
   p.light[2] += term * t.blue;
 }
 
-/// Adds a texel's light to the pixels and, if `ways`, the vectors to it.
+/// Adds a texel's light to the pixels and, if `directions`, the vectors to it.
 template <class T>
-LAMBENT_FORCE_INLINE void add_texel(GatherLanes& p, const TexelFields<T>& t, bool ways) {
+LAMBENT_FORCE_INLINE void add_texel(GatherLanes& p, const TexelFields<T>& t, bool directions) {
   Lanes term;
-  if (!ways) {
+  if (!directions) {
     texel_term(term, p, t);
     return add_light(p, t, term);
   }
   // Share the one division
-  Way way;
-  texel_numerator(term, way, p, t);
-  Lanes inverse = 1.0f / way.fourth_power;
-  keep(inverse, way.lit);
+  TexelSightLanes sight;
+  texel_numerator(term, sight, p, t);
+  Lanes inverse = 1.0f / sight.fourth_power;
+  keep(inverse, sight.lit);
   add_light(p, t, term * inverse);
   const T flux = t.red * kRedLuminance + t.green * kGreenLuminance + t.blue * kBlueLuminance;
-  const Lanes share = way.below_texel * inverse * -flux;
-  p.ways[0] += share * way.x;
-  p.ways[1] += share * way.y;
-  p.ways[2] += share * way.z;
+  const Lanes share = sight.below_texel * inverse * -flux;
+  p.directions[0] += share * sight.x;
+  p.directions[1] += share * sight.y;
+  p.directions[2] += share * sight.z;
 }
 
 LAMBENT_FORCE_INLINE TexelFields<float> fields_of(const RsmTexel& t) {
@@ -105,36 +107,36 @@ LAMBENT_FORCE_INLINE TexelFields<float> fields_of(const RsmTexel& t) {
 /// Gathers the same texels at all pixels; texel_at(k) returns texel k.
 template <class TexelAt>
 LAMBENT_FORCE_INLINE void gather_alike(const GatherRow& row, std::size_t count,
-                                       const TexelAt& texel_at, bool ways) {
+                                       const TexelAt& texel_at, bool directions) {
   constexpr std::size_t kStep = kTexelsPerDirection;
   for (int i = 0; i < row.count; i += kLanes) {
     GatherLanes pixels;
     load_guide(pixels, row.guide, i);
     clear_light(pixels);
     std::size_t k = 0;
-    for (; ways && k + kStep <= count; k += kStep) {
+    for (; directions && k + kStep <= count; k += kStep) {
       add_texel(pixels, fields_of(texel_at(k)), true);
       for (std::size_t j = 1; j < kStep; ++j) {
         add_texel(pixels, fields_of(texel_at(k + j)), false);
       }
     }
     for (; k < count; ++k) {
-      add_texel(pixels, fields_of(texel_at(k)), ways && k % kStep == 0);
+      add_texel(pixels, fields_of(texel_at(k)), directions && k % kStep == 0);
     }
-    store_light(pixels, row, i, ways);
+    store_light(pixels, row, i, directions);
   }
 }
 
 static void contiguous(const GatherRow& row, const RsmTexel* texels, std::size_t count) {
   const auto texel_at = [=](std::size_t k) -> const RsmTexel& { return texels[k]; };
-  if (row.ways.first != nullptr) return gather_alike(row, count, texel_at, true);
+  if (row.directions.first != nullptr) return gather_alike(row, count, texel_at, true);
   gather_alike(row, count, texel_at, false);
 }
 
 static void scattered(const GatherRow& row, const RsmTexel* rendered, const std::uint32_t* places,
                       std::size_t count) {
   const auto texel_at = [=](std::size_t k) -> const RsmTexel& { return rendered[places[k]]; };
-  if (row.ways.first != nullptr) return gather_alike(row, count, texel_at, true);
+  if (row.directions.first != nullptr) return gather_alike(row, count, texel_at, true);
   gather_alike(row, count, texel_at, false);
 }
 
@@ -148,7 +150,7 @@ LAMBENT_FORCE_INLINE void fetch(Lanes& lanes, const float* floats, const std::ui
 
 static void per_pixel(const GatherRow& row, const RsmTexel* texels, const std::uint32_t* places,
                       std::size_t count) {
-  const bool ways = row.ways.first != nullptr;
+  const bool directions = row.directions.first != nullptr;
   for (int i = 0; i < row.count; i += kLanes) {
     GatherLanes pixels;
     load_guide(pixels, row.guide, i);
@@ -169,23 +171,24 @@ static void per_pixel(const GatherRow& row, const RsmTexel* texels, const std::u
       t.red *= kInvPi;
       t.green *= kInvPi;
       t.blue *= kInvPi;
-      add_texel(pixels, t, ways && k % kTexelsPerDirection == 0);
+      add_texel(pixels, t, directions && k % kTexelsPerDirection == 0);
     }
-    store_light(pixels, row, i, ways);
+    store_light(pixels, row, i, directions);
   }
 }
 
 /// Adds the light of one texel for each pixel, given its fields: position, normal, softening, flux
 /// over pi.
-static void add_fetched(const GatherRow& row, int first, const float (*fields)[kLanes], bool ways) {
+static void add_fetched(const GatherRow& row, int first, const float (*fields)[kLanes],
+                        bool directions) {
   GatherLanes pixels;
   load_guide(pixels, row.guide, first);
-  load_light(pixels, row, first, ways);
+  load_light(pixels, row, first, directions);
   Lanes f[kTexelFields];
   for (int k = 0; k < kTexelFields; ++k) load(f[k], fields[k]);
   add_texel(pixels, TexelFields<Lanes>{f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8], f[9]},
-            ways);
-  store_light(pixels, row, first, ways);
+            directions);
+  store_light(pixels, row, first, directions);
 }
 
 /// reorientation() of shared/reorient_irradiance.h for lanes.
@@ -196,8 +199,9 @@ static void reorientable(const GatherRow& row) {
     load_light(p, row, i, true);
     const Lanes light =
         p.light[0] * kRedLuminance + p.light[1] * kGreenLuminance + p.light[2] * kBlueLuminance;
-    const Lanes across = p.ways[0] * p.nx + p.ways[1] * p.ny + p.ways[2] * p.nz;
-    const Lanes square = p.ways[0] * p.ways[0] + p.ways[1] * p.ways[1] + p.ways[2] * p.ways[2];
+    const Lanes across = p.directions[0] * p.nx + p.directions[1] * p.ny + p.directions[2] * p.nz;
+    const Lanes square = p.directions[0] * p.directions[0] + p.directions[1] * p.directions[1] +
+                         p.directions[2] * p.directions[2];
     Lanes least;
     for (int l = 0; l < kLanes; ++l) least[l] = kLeastDirectedCosine * std::sqrt(square[l]);
     const Lanes bound = across > least ? across : least;
@@ -207,7 +211,7 @@ static void reorientable(const GatherRow& row) {
     const Lanes normal[] = {p.nx, p.ny, p.nz};
     for (int c = 0; c < kLightPlanes; ++c) {
       Lanes word;
-      pack_halves(word, p.light[c], p.ways[c] * scale + normal[c] * rest);
+      pack_halves(word, p.light[c], p.directions[c] * scale + normal[c] * rest);
       store(row.light.at(c) + i, word);
     }
   }

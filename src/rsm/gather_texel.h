@@ -16,8 +16,8 @@ const int kTexelsPerDirection = 8;
 
 /// Light gathered at a point, and its mean direction.
 struct TexelLight {
-  vec3 light;  ///< Irradiance [W/m^2].
-  vec3 ways;   ///< Sum of vectors to texels, weighted by their luminance; of any length.
+  vec3 light;       ///< Irradiance [W/m^2].
+  vec3 directions;  ///< Sum of vectors to texels, weighted by their luminance; of any length.
 };
 
 /// A texel as seen from a point. `inverse` is one over the fourth power of the softened distance
@@ -48,8 +48,9 @@ LAMBENT_FN void gather_texel(LAMBENT_INOUT(TexelLight) sum, vec3 normal_ws, Texe
 }
 
 /// Adds the vector to a texel, weighted by its light.
-LAMBENT_FN void gather_way(LAMBENT_INOUT(TexelLight) sum, TexelSight sight, RsmTexelRecord texel) {
-  sum.ways += sight.to_texel * (sight.above_texel * sight.inverse * luminance(texel.flux));
+LAMBENT_FN void gather_direction(LAMBENT_INOUT(TexelLight) sum, TexelSight sight,
+                                 RsmTexelRecord texel) {
+  sum.directions += sight.to_texel * (sight.above_texel * sight.inverse * luminance(texel.flux));
 }
 
 LAMBENT_END

@@ -19,34 +19,35 @@ struct RowOf {
   int i, j, row;
 };
 
-/// For every row of the picture, on all cores: calls before(y), then body(RowOf, ways) for the rows
-/// of sub-images that hold its pixels. `ways` has room for one row.
+/// For every row of the picture, on all cores: calls before(y), then body(RowOf, directions) for
+/// the rows of sub-images that hold its pixels. `directions` has room for one row.
 template <class Before, class Body>
 void for_each_row(const Mosaic& mosaic, Before before, Body body) {
   const auto p = static_cast<std::size_t>(mosaic.sub_images());
   const auto rows = static_cast<std::size_t>(mosaic.layout().height);
   const int stride = mosaic.layout().stride;
   parallel_chunks(rows * p, kRowsPerTask, [&](std::size_t begin, std::size_t end) {
-    AlignedFloats ways(static_cast<std::size_t>(kDirectionPlanes) * stride);
+    AlignedFloats directions(static_cast<std::size_t>(kDirectionPlanes) * stride);
     for (std::size_t y = begin; y < end; ++y) {
       before(static_cast<int>(y));
       for (std::size_t i = 0; i < p; ++i) {
         body(RowOf{static_cast<int>(i), static_cast<int>(y % p), static_cast<int>(y / p)},
-             Planes{ways.data(), stride});
+             Planes{directions.data(), stride});
       }
     }
   });
 }
 
-GatherRow gather_row(Mosaic& mosaic, const RowOf& at, const Planes& ways) {
+GatherRow gather_row(Mosaic& mosaic, const RowOf& at, const Planes& directions) {
   return {mosaic.guide(at.i, at.j, at.row),
-          mosaic.light(Mosaic::Light::current, at.i, at.j, at.row), ways, mosaic.layout().width};
+          mosaic.light(Mosaic::Light::current, at.i, at.j, at.row), directions,
+          mosaic.layout().width};
 }
 
 void clear(const GatherRow& row) {
   for (int c = 0; c < kLightPlanes; ++c) std::fill_n(row.light.at(c), row.count, 0.0f);
-  if (row.ways.first == nullptr) return;
-  for (int c = 0; c < kDirectionPlanes; ++c) std::fill_n(row.ways.at(c), row.count, 0.0f);
+  if (row.directions.first == nullptr) return;
+  for (int c = 0; c < kDirectionPlanes; ++c) std::fill_n(row.directions.at(c), row.count, 0.0f);
 }
 
 /// Part of a row: `count` pixels from `first` on.
@@ -54,7 +55,7 @@ GatherRow part_of(const GatherRow& row, int first, int count) {
   GatherRow part = row;
   part.guide.first += first;
   part.light.first += first;
-  if (part.ways.first != nullptr) part.ways.first += first;
+  if (part.directions.first != nullptr) part.directions.first += first;
   part.count = count;
   return part;
 }
@@ -116,8 +117,8 @@ std::uint64_t gather_whole(const World& world, const RsmView& view, const RsmLig
   if (mixed) tables.emplace(lights, settings);
   std::atomic<std::uint64_t> rays = 0;
   const auto fill = [&](int y) { mosaic.fill_row(view, y); };
-  for_each_row(mosaic, fill, [&](const RowOf& at, const Planes& ways) {
-    const GatherRow row = gather_row(mosaic, at, blurs(settings) ? ways : Planes());
+  for_each_row(mosaic, fill, [&](const RowOf& at, const Planes& directions) {
+    const GatherRow row = gather_row(mosaic, at, blurs(settings) ? directions : Planes());
     const int sub = sub_map_of({at.i, at.j}, n);
     if (mixed) {
       gather_mixed_row(row, at.row, lights, settings, *tables);
@@ -135,7 +136,7 @@ std::uint64_t gather_whole(const World& world, const RsmView& view, const RsmLig
                                  settings.visibility_rays, pixel + x, p, settings.seed);
       }
     }
-    if (row.ways.first != nullptr) make_reorientable(row);
+    if (row.directions.first != nullptr) make_reorientable(row);
   });
   return rays;
 }

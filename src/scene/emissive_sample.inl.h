@@ -35,5 +35,5 @@ LAMBENT_FN vec3 emitted_radiance(SceneRef scene, EmitterRecord emitter, vec2 bar
   PointEmission sent = emission_of(scene, emitter, barycentrics);
   if (sent.clearcoat <= 0.0f) return sent.radiance;
   vec3 normal_ws = triangle_normal(emitter.edge1_ws, emitter.edge2_ws);
-  return sent.radiance * passes_clearcoat(sent.clearcoat, abs(dot(normal_ws, direction_ws)));
+  return sent.radiance * clearcoat_transmittance(sent.clearcoat, abs(dot(normal_ws, direction_ws)));
 }

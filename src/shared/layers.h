@@ -58,11 +58,11 @@ LAMBENT_FN float schlick_power(float cosine) {
 
 /// Transmittance of each layer by the cosine to its normal, and their means over light from a
 /// uniform sky.
-LAMBENT_FN float passes_clearcoat(float clearcoat, float cosine) {
+LAMBENT_FN float clearcoat_transmittance(float clearcoat, float cosine) {
   return 1.0f - clearcoat * clearcoat_fresnel(schlick_power(cosine));
 }
-LAMBENT_FN float passes_clearcoat(SurfaceLayers layers, float cosine) {
-  return passes_clearcoat(layers.clearcoat, cosine);
+LAMBENT_FN float clearcoat_transmittance(SurfaceLayers layers, float cosine) {
+  return clearcoat_transmittance(layers.clearcoat, cosine);
 }
 LAMBENT_FN float mean_passes_clearcoat(SurfaceLayers layers) {
   return 1.0f - layers.clearcoat * clearcoat_fresnel(1.0f / 21.0f);
@@ -81,7 +81,7 @@ LAMBENT_FN float mean_passes_sheen(SurfaceLayers layers) {
 LAMBENT_FN float passes_layers(SurfaceLayers layers, float cosine) {
   float share = 1.0f;
   if (has_sheen(layers)) share *= passes_sheen(layers, cosine);
-  if (has_clearcoat(layers)) share *= passes_clearcoat(layers, cosine);
+  if (has_clearcoat(layers)) share *= clearcoat_transmittance(layers, cosine);
   return share;
 }
 
@@ -89,8 +89,8 @@ LAMBENT_FN float passes_layers(SurfaceLayers layers, float cosine) {
 /// frame of the shading normal, here and below.
 LAMBENT_FN float even_share_under_clearcoat(SurfaceLayers layers, vec3 to_viewer, vec3 to_light) {
   if (!has_clearcoat(layers)) return 1.0f;
-  return passes_clearcoat(layers, dot(layers.clearcoat_normal, to_viewer)) *
-         passes_clearcoat(layers, dot(layers.clearcoat_normal, to_light)) /
+  return clearcoat_transmittance(layers, dot(layers.clearcoat_normal, to_viewer)) *
+         clearcoat_transmittance(layers, dot(layers.clearcoat_normal, to_light)) /
          mean_passes_clearcoat(layers);
 }
 
@@ -109,7 +109,7 @@ LAMBENT_FN float coat_share_under_layers(SurfaceLayers layers, vec3 to_viewer, v
   if (!has_clearcoat(layers)) return share;
   float cosine =
       min(dot(layers.clearcoat_normal, to_viewer), dot(layers.clearcoat_normal, to_light));
-  return share * passes_clearcoat(layers, cosine);
+  return share * clearcoat_transmittance(layers, cosine);
 }
 
 /// Mean of max((1 - n_dot_v)^5, (1 - n_dot_l)^5) over the light from a uniform sky that a GGX coat
@@ -135,7 +135,8 @@ LAMBENT_FN float mean_greater_schlick(float n_dot_v, float alpha) {
 /// mean lies between that of a mirror and that of a Lambert surface.
 LAMBENT_FN float mean_even_share(SurfaceLayers layers, float n_dot_v) {
   float share = has_sheen(layers) ? passes_sheen(layers, n_dot_v) : 1.0f;
-  return has_clearcoat(layers) ? share * passes_clearcoat(layers, layers.clearcoat_cosine) : share;
+  return has_clearcoat(layers) ? share * clearcoat_transmittance(layers, layers.clearcoat_cosine)
+                               : share;
 }
 LAMBENT_FN float mean_coat_share(SurfaceLayers layers, float n_dot_v, float alpha) {
   float share = 1.0f;
@@ -184,7 +185,7 @@ LAMBENT_FN float clearcoat_albedo(SurfaceLayers layers) {
 LAMBENT_FN vec3 layered_sheen_albedo(SurfaceLayers layers, float n_dot_v) {
   if (!has_sheen(layers)) return vec3(0.0f);
   float share = sheen_albedo(n_dot_v, layers.sheen_roughness);
-  if (has_clearcoat(layers)) share *= passes_clearcoat(layers, layers.clearcoat_cosine);
+  if (has_clearcoat(layers)) share *= clearcoat_transmittance(layers, layers.clearcoat_cosine);
   return layers.sheen * share;
 }
 

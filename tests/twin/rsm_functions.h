@@ -125,9 +125,9 @@ LAMBENT_FN void call_gather(LAMBENT_INOUT(RsmResultCursor) to, RsmInputs a) {
   TexelLight sum = {vec3(0.0f), vec3(0.0f)};
   TexelSight sight = see_texel(a.position_ws, a.normal_ws, a.texel);
   gather_texel(sum, a.normal_ws, sight, a.texel);
-  gather_way(sum, sight, a.texel);
+  gather_direction(sum, sight, a.texel);
   tell(to, sum.light);
-  tell(to, sum.ways);
+  tell(to, sum.directions);
   float light = 0.1f + luminance(a.texel.flux);
   vec3 means = reorientation(sight.to_texel, a.normal_ws, light);
   tell(to, means);

@@ -151,7 +151,8 @@ TEST(Layers, OverAWhiteBaseReflectAllLight) {
       const float own = clearcoat_albedo(surface.layers);
       const float found = reflected_share(surface, cosine).x;
       EXPECT_LE(found, 1.0f + kEnergy);
-      EXPECT_NEAR(found, passes_clearcoat(surface.layers, cosine) + own, kEnergy + kOfCoat * own)
+      EXPECT_NEAR(found, clearcoat_transmittance(surface.layers, cosine) + own,
+                  kEnergy + kOfCoat * own)
           << "clearcoat " << roughness << ", cosine " << cosine;
     }
   }

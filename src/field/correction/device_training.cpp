@@ -62,11 +62,11 @@ std::size_t DeviceTraining::bytes() const {
                    &ray_count_});
 }
 
-void DeviceTraining::begin(std::span<const TrainedSurfel> surfels, uint number) {
+void DeviceTraining::begin(std::span<const TrainingSurfel> surfels, uint number) {
   const vulkan::Device& device = field_.device();
   std::vector<TrainedSurfelRecord> records;
   records.reserve(surfels.size());
-  for (const TrainedSurfel& at : surfels) {
+  for (const TrainingSurfel& at : surfels) {
     records.push_back({at.probe, static_cast<uint>(at.probe * field_.surfel_stride() + at.ray),
                        at.ray, field_.ray_set_of(at.probe)});
   }

@@ -21,7 +21,7 @@ class DeviceTraining {
 
   /// Uploads the surfels at which the next update learns, and reserves memory. Must be called
   /// before record(), and after FieldResources::set_rays() for the update's probes.
-  void begin(std::span<const TrainedSurfel> surfels, uint number);
+  void begin(std::span<const TrainingSurfel> surfels, uint number);
   /// Records the gathers, and the update of the field's corrections from them.
   void record(vulkan::Recorder& to, const DeviceWorld& world);
   /// The number of rays traced, once the recorded commands have run.

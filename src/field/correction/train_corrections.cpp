@@ -34,12 +34,12 @@ struct Training {
   uint number, seed;
 };
 
-/// The points at which this rank learns in an update: those of trained_surfels() that belong to
+/// The points at which this rank learns in an update: those of training_surfels() that belong to
 /// this rank and reflect light.
 std::vector<TrainingPoint> points_of(const Training& training, std::span<const int> probes) {
   std::vector<TrainingPoint> points;
   uint point = 0;
-  for (const TrainedSurfel& at : trained_surfels(training.data, probes, training.number)) {
+  for (const TrainingSurfel& at : training_surfels(training.data, probes, training.number)) {
     const uint index = point++;
     if (!training.data.share.alone() && !training.data.share.has(at.probe)) continue;
     const ProbeTrace& trace = training.data.traces[at.probe];
@@ -226,11 +226,11 @@ std::vector<CorrectionSample> joined(Ranks& ranks, std::span<const TaskSamples> 
 
 }  // namespace
 
-std::vector<TrainedSurfel> trained_surfels(const ProbeData& data, std::span<const int> probes,
-                                           uint number) {
+std::vector<TrainingSurfel> training_surfels(const ProbeData& data, std::span<const int> probes,
+                                             uint number) {
   std::size_t all = 0;
   for (const int probe : probes) all += data.traces[probe].rays->directions.size();
-  std::vector<TrainedSurfel> surfels(all / training_stride(number));
+  std::vector<TrainingSurfel> surfels(all / training_stride(number));
   std::size_t k = 0, first = 0;  // the place of a surfel's probe, and the probe's first surfel
   for (uint point = 0; point < surfels.size(); ++point) {
     const std::size_t at = trained_surfel(point, number, data.settings.seed);

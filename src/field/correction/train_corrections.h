@@ -12,15 +12,15 @@
 namespace lambent {
 
 /// A surfel at which an update learns, unless it reflects nothing.
-struct TrainedSurfel {
+struct TrainingSurfel {
   int probe;
   int ray;
 };
 
 /// The surfels of these probes at which update `number` learns: one of every training_stride()
 /// consecutive surfels. Their places in the list seed their random numbers.
-std::vector<TrainedSurfel> trained_surfels(const ProbeData& data, std::span<const int> probes,
-                                           uint number);
+std::vector<TrainingSurfel> training_surfels(const ProbeData& data, std::span<const int> probes,
+                                             uint number);
 
 /// The settings with which the hits of the gathers of update `number` are shaded.
 ShadeHitsSettings training_shading(const FieldSettings& settings, uint number);

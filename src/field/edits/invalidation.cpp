@@ -183,7 +183,7 @@ void SurfelInvalidation::reshade_direct(int probe, ProbeTrace& trace) {
 }
 
 /// Computes the distances of a probe's rays from its surfels.
-void seen_distances(const ProbeTrace& trace, const vec3& origin, std::vector<SeenDistance>& seen) {
+void ray_distances(const ProbeTrace& trace, const vec3& origin, std::vector<RayDistance>& seen) {
   seen.resize(trace.surfels.size());
   for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
     const Surfel& surfel = trace.surfels[i];
@@ -214,7 +214,7 @@ void move_moments(int probe, std::span<const vec2> before, std::span<const vec2>
 /// A probe whose rays have other distances than before, and their distances before.
 struct MovedProbe {
   int probe;
-  std::vector<SeenDistance> before;
+  std::vector<RayDistance> before;
 };
 
 /// A probe of which some surfels need other lookups.
@@ -228,7 +228,7 @@ struct Part {
   std::uint64_t probe_rays = 0, shadow_rays = 0;
   std::vector<OtherSurfaces> other_surfaces;
   std::vector<MovedProbe> moved;
-  std::vector<SeenDistance> seen;  // scratch
+  std::vector<RayDistance> seen;  // scratch
 };
 
 /// Stores the new distances of the moved probes.
@@ -242,13 +242,13 @@ void move_distances(const FieldSettings& settings, std::span<const MovedProbe> m
     if (!blend) blend = std::make_unique<const DistanceBlend>(settings, rays->directions);
   }
   parallel_chunks(moved.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
-    std::vector<SeenDistance> after;
+    std::vector<RayDistance> after;
     for (std::size_t k = begin; k < end; ++k) {
       const int probe = moved[k].probe;
       const DistanceBlend& blend = *blends.at(traces[probe].rays.get());
       std::vector<vec2> moments_before(blend.texels()), moments_after(blend.texels());
       const float farthest = max_probe_distance(store.grid_of(probe));
-      seen_distances(traces[probe], store.probe_position_ws(probe), after);
+      ray_distances(traces[probe], store.probe_position_ws(probe), after);
       blend.moments(moved[k].before, farthest, moments_before);
       blend.moments(after, farthest, moments_after);
       move_moments(probe, moments_before, moments_after, dither_seed, store);
@@ -320,7 +320,7 @@ InvalidationResult invalidate_surfels(const World& world, const SolidSides& soli
     for (std::size_t k = begin; k < end; ++k) {
       const int probe = probes[k];
       const vec3 origin = store.probe_position_ws(probe);
-      if (!edits.boxes.empty()) seen_distances(traces[probe], origin, part.seen);
+      if (!edits.boxes.empty()) ray_distances(traces[probe], origin, part.seen);
       const SurfelInvalidation::Outcome outcome =
           invalidation.update_probe(probe, origin, traces[probe]);
       if (outcome.other_surfaces) part.other_surfaces.push_back({probe, invalidation.changed()});

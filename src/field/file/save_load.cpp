@@ -26,9 +26,9 @@ std::string size_of(const SceneIdentity& scene) {
 Expected<void> check_scene(const std::string& path, const SceneIdentity& made_for,
                            const SceneIdentity& given) {
   if (made_for.same_place(given)) return {};
-  const std::string told = size_of(made_for), seen = size_of(given);
-  if (told != seen) {
-    return fail(path, "", "is of another scene: one of " + told + ", not of " + seen);
+  const std::string expected = size_of(made_for), seen = size_of(given);
+  if (expected != seen) {
+    return fail(path, "", "is of another scene: one of " + expected + ", not of " + seen);
   }
   return fail(path, "", "is of another scene: one as large, but of another shape");
 }
@@ -62,7 +62,8 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world,
     statuses[probe].revision = world.revision();
     // An exact number of bounces is carried through all probes at once
     if (settings.max_bounces >= 0) statuses[probe].state = ProbeState::newly_vigilant;
-    never_traced = never_traced || (is_live(statuses[probe]) && statuses[probe].last_traced == 0);
+    never_traced =
+        never_traced || (is_scheduled(statuses[probe]) && statuses[probe].last_traced == 0);
   }
   scheduling.mean_light = static_cast<float>(sum / data.store.probes());
   scheduling.warming_up = updates == 0 || never_traced;

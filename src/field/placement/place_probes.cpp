@@ -194,7 +194,7 @@ void IrradianceField::State::update_classification_inputs(const World& world,
     placement.classification_inputs[probe] = classification_input(
         around, data.store.probe_offset(probe) * grid.spacing, vec3(0.0f), grid.spacing);
     if (!learn_distances) return;
-    std::vector<SeenDistance> seen;
+    std::vector<RayDistance> seen;
     for (const FixedRayHit& hit : around) seen.push_back({hit.distance, hit.from_inside != 0});
     std::vector<vec2> moments(blend.texels());
     blend.moments(seen, max_probe_distance(grid), moments);

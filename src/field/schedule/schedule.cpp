@@ -19,7 +19,7 @@ constexpr double kFirstGuessMs = 1e-3;
 
 }  // namespace
 
-bool is_live(const ProbeStatus& status) {
+bool is_scheduled(const ProbeStatus& status) {
   if (status.state == ProbeState::off) return false;
   // Fog and lookups in open air need the light of sleeping probes: these are traced once, and again
   // where their history was reset
@@ -52,7 +52,7 @@ Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles
     const std::uint32_t period = settings.max_bounces >= 0 ? 1u : 1u << roles[volume].level;
     const int first = store.grid(volume).first;
     for (int probe = first; probe < first + probe_count(store.grid(volume)); ++probe) {
-      if (!is_live(statuses[probe])) continue;
+      if (!is_scheduled(statuses[probe])) continue;
       // Spread the probes of a coarse volume over its updates
       const bool turn = (update + static_cast<std::uint32_t>(probe)) % period == 0;
       if (turn || statuses[probe].last_traced == 0) schedule.probes.push_back(probe);

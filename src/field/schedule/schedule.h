@@ -37,7 +37,7 @@ inline float longest_average(const FieldSettings& settings) {
 
 /// Whether a probe takes part in the schedule. Probes that are off do not, nor do sleeping ones
 /// that have been traced and hold samples.
-bool is_live(const ProbeStatus& status);
+bool is_scheduled(const ProbeStatus& status);
 
 /// Measures the cost of a ray, and converts time budgets into ray budgets.
 class RayCost {

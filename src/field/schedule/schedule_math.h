@@ -120,12 +120,13 @@ LAMBENT_FN int neighbour_of(ProbeGrid grid, ivec3 coords, int neighbour) {
 }
 
 // The value of `last_traced` for a probe that takes no part in the schedule.
-const uint kNotLive = 0xFFFFFFFFu;
+const uint kNotScheduled = 0xFFFFFFFFu;
 
 /// Whether a probe has waited for kMaxProbeAge. Updates are counted from 1; `last_traced` is 0 for
 /// a probe that was never traced.
 LAMBENT_FN bool waits_too_long(uint last_traced, uint update) {
-  return last_traced != kNotLive && (last_traced == 0u || update - last_traced >= kMaxProbeAge);
+  return last_traced != kNotScheduled &&
+         (last_traced == 0u || update - last_traced >= kMaxProbeAge);
 }
 
 /// The weight of probes by the level of their cascade: those of level L are traced 2^-L times as

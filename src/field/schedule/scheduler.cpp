@@ -129,7 +129,7 @@ void ProbeScheduler::refresh_status(std::span<const ProbeStatus> statuses, int p
   entry.state = status.state;
   ++count_of(states_, entry.state);
   if (entry.last_traced == 0) --never_traced_;
-  entry.last_traced = is_live(status) ? status.last_traced : kNotLive;
+  entry.last_traced = is_scheduled(status) ? status.last_traced : kNotScheduled;
   // Only lookups in open air read sleeping probes: they count as traced once, so that they come
   // after all other probes that have never been traced
   if (status.state == ProbeState::sleeping) entry.last_traced = std::max(entry.last_traced, 1u);
@@ -143,11 +143,11 @@ void ProbeScheduler::refresh_deviation(const ProbeStore& store,
   Entry& entry = entries_[probe];
   const ProbeStatus& own = statuses[probe];
   entry.deviation = entry.reduction = entry.reduction_per_deviation = 0.0f;
-  if (entry.last_traced == kNotLive) return;
+  if (entry.last_traced == kNotScheduled) return;
   struct Neighbourhood {
     std::span<const Entry> entries;
     std::span<const ProbeStatus> statuses;
-    bool fetch_live(int at) const { return entries[at].last_traced != kNotLive; }
+    bool fetch_live(int at) const { return entries[at].last_traced != kNotScheduled; }
     float fetch_variance(int at) const { return statuses[at].variance; }
 #include "field/schedule/neighbourhood_variance.inl.h"
   } near = {entries_, statuses};
@@ -164,7 +164,7 @@ void ProbeScheduler::refresh_deviation(const ProbeStore& store,
 
 void ProbeScheduler::refresh_block(std::size_t block) {
   Block sum;
-  sum.last_traced = kNotLive;
+  sum.last_traced = kNotScheduled;
   const std::size_t end = std::min((block + 1) * kBlock, entries_.size());
   for (std::size_t i = block * kBlock; i < end; ++i) {
     const Entry& entry = entries_[i];
@@ -248,7 +248,7 @@ Schedule ProbeScheduler::choose(const ProbeStore& store, std::uint64_t ray_budge
     const Block& block = blocks_[b];
     // Use the age of the block's oldest probe: if it does not wait too long, no other probe does
     const std::uint32_t last_traced =
-        waits_too_long(block.last_traced, update) ? block.last_traced : kNotLive;
+        waits_too_long(block.last_traced, update) ? block.last_traced : kNotScheduled;
     float weight = 1.0f;
     if (viewer_ws && importance.empty()) {
       const int first = static_cast<int>(b * kBlock);

@@ -22,7 +22,7 @@ DistanceBlend::DistanceBlend(const FieldSettings& settings, std::span<const vec3
   blend_.apply2(ones.data(), &totals_[0].x);
 }
 
-void DistanceBlend::moments(std::span<const SeenDistance> seen, float farthest,
+void DistanceBlend::moments(std::span<const RayDistance> seen, float farthest,
                             std::span<vec2> moments) const {
   // Clamp the distances and count the rays from inside solid matter
   thread_local std::vector<vec2> values, sums;
@@ -48,7 +48,7 @@ void blend_distances(const SolidSides& solid_sides, const DistanceBlend& blend,
                      uint dither_seed, ProbeStore& store) {
   const auto rays = static_cast<std::size_t>(blend.rays());
   parallel_chunks(group.probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
-    std::vector<SeenDistance> seen(rays);
+    std::vector<RayDistance> seen(rays);
     std::vector<vec2> moments(blend.texels());
     for (std::size_t k = begin; k < end; ++k) {
       for (std::size_t i = 0; i < rays; ++i) {

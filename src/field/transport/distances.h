@@ -12,7 +12,7 @@
 namespace lambent {
 
 /// The distance to the hit of a ray.
-struct SeenDistance {
+struct RayDistance {
   float distance;    ///< [m]; infinite: the ray left the scene.
   bool from_inside;  ///< The side that the ray hit bounds solid matter.
 };
@@ -24,7 +24,7 @@ class DistanceBlend {
 
   /// Computes the mean distance [m] and mean squared distance [m^2] of each interior texel from one
   /// distance per ray, clamped to `farthest`. All are 0 where the probe stands inside geometry.
-  void moments(std::span<const SeenDistance> seen, float farthest, std::span<vec2> moments) const;
+  void moments(std::span<const RayDistance> seen, float farthest, std::span<vec2> moments) const;
 
   int rays() const { return blend_.rays(); }
   int texels() const { return blend_.texels(); }  ///< Texels of a tile, without gutter.

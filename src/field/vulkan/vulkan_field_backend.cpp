@@ -173,7 +173,7 @@ ProbeUpdateResult VulkanFieldBackend::update_probes(ProbeUpdate update) {
       hybrid ? cells_around(data_.store, update.probes) : std::vector<int>();
   if (update.learns) {
     if (!training_) training_ = std::make_unique<DeviceTraining>(field_);
-    training_->begin(trained_surfels(data_, update.probes, update.number), update.number);
+    training_->begin(training_surfels(data_, update.probes, update.number), update.number);
     corrections_are_newer_ = true;
   }
   WorldRaysVulkan rays(field_, shading_, ray_buffers_, *device_world_of(update.world), list, cells,

@@ -59,7 +59,7 @@ void finish_pixel(DeviceView view, GatherTarget target, ivec2 size, uint flags, 
   int place = mosaic_index(pixel.at, size, kSubImages);
   int plane = mosaic_places(size, kSubImages);
   write_guide(target.guide, place, pixel, view.depths.at[i]);
-  vec3 means = reorientation(gathered.ways, pixel.normal_ws, luminance(light));
+  vec3 means = reorientation(gathered.directions, pixel.normal_ws, luminance(light));
   target.light.at[place] = pack_upper_halves(light.x, means.x);
   target.light.at[place + plane] = pack_upper_halves(light.y, means.y);
   target.light.at[place + 2 * plane] = pack_upper_halves(light.z, means.z);

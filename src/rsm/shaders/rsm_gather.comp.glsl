@@ -50,7 +50,7 @@ void main() {
     exists[i] = find_pixel(args.view, size, place_of(i), pixels[i]);
     sums[i] = TexelLight(vec3(0.0f), vec3(0.0f));
   }
-  bool ways = (args.flags & kGatherBlurred) != 0u;
+  bool directions = (args.flags & kGatherBlurred) != 0u;
   int sub_map = sub_map_of(sub_image_of_group(kSubImages), args.sub_maps);
   for (int first = 0; first < args.count; first += kGroup) {
     barrier();
@@ -62,7 +62,7 @@ void main() {
       for (int i = 0; i < kGatherPixels; ++i) {
         TexelSight sight = see_texel(pixels[i].position_ws, pixels[i].normal_ws, texel);
         gather_texel(sums[i], pixels[i].normal_ws, sight, texel);
-        if (ways && k % kTexelsPerDirection == 0) gather_way(sums[i], sight, texel);
+        if (directions && k % kTexelsPerDirection == 0) gather_direction(sums[i], sight, texel);
       }
     }
   }

@@ -31,8 +31,8 @@ void gather_map(inout TexelLight sum, DiskMap map, Pixel pixel) {
     texel = weigh_disk_texel(texel, disk.weight * float(n * n), n, args.softening);
     TexelSight sight = see_texel(pixel.position_ws, pixel.normal_ws, texel);
     gather_texel(sum, pixel.normal_ws, sight, texel);
-    bool way = (args.flags & kGatherBlurred) != 0u && k % kTexelsPerDirection == 0;
-    if (way) gather_way(sum, sight, texel);
+    bool with_direction = (args.flags & kGatherBlurred) != 0u && k % kTexelsPerDirection == 0;
+    if (with_direction) gather_direction(sum, sight, texel);
   }
 }
 

@@ -13,7 +13,7 @@ void main() {
   Pixel pixel;
   ivec2 size = ivec2(args.width, args.height);
   if (!find_pixel(args.view, size, own_place(0), pixel)) return;
-  bool ways = (args.flags & kGatherBlurred) != 0u;
+  bool directions = (args.flags & kGatherBlurred) != 0u;
   bool rendered = (args.flags & kGatherRendered) != 0u;
   uint start = uint(sub_map_of(pixel.at, args.sub_maps) * args.count);
   TexelLight sum = {vec3(0.0f), vec3(0.0f)};
@@ -23,7 +23,7 @@ void main() {
     texel.flux *= kInvPi;
     TexelSight sight = see_texel(pixel.position_ws, pixel.normal_ws, texel);
     gather_texel(sum, pixel.normal_ws, sight, texel);
-    if (ways && k % kTexelsPerDirection == 0) gather_way(sum, sight, texel);
+    if (directions && k % kTexelsPerDirection == 0) gather_direction(sum, sight, texel);
   }
   finish_pixel(args.view, args.target, size, args.flags, pixel, sum);
 }

@@ -181,7 +181,8 @@ class Pose {
           world_from_bind.emplace_back(world_from_node_[skin.joints[j]] * skin.joint_from_bind[j]);
         }
       }
-      bend(scene_, mesh, nodes_[mesh.node].weights, world_from_bind, instances_of[mesh.mesh]);
+      deform_mesh(scene_, mesh, nodes_[mesh.node].weights, world_from_bind,
+                  instances_of[mesh.mesh]);
     }
   }
 

@@ -113,8 +113,8 @@ glm::mat3 normal_matrix(const glm::mat3& m) {
   return glm::determinant(m) < 0.0f ? -cofactors : cofactors;
 }
 
-void bend(Scene& scene, const RigMesh& rig, std::span<const float> morph_weights,
-          std::span<const glm::mat4> world_from_bind, std::span<const int> instances) {
+void deform_mesh(Scene& scene, const RigMesh& rig, std::span<const float> morph_weights,
+                 std::span<const glm::mat4> world_from_bind, std::span<const int> instances) {
   Mesh& mesh = scene.meshes[rig.mesh];
   if (mesh.positions.size() != rig.positions.size()) return;
   Mesh bent = mesh;

@@ -17,7 +17,7 @@ glm::mat3 normal_matrix(const glm::mat3& m);
 /// transforms from bind pose to world (empty: no skinning). Raises its revision if a vertex moved.
 /// The mesh is not changed if it, or one of its `instances`, would leave the range of coordinates
 /// (kMaxCoordinate).
-void bend(Scene& scene, const RigMesh& rig, std::span<const float> morph_weights,
-          std::span<const glm::mat4> world_from_bind, std::span<const int> instances);
+void deform_mesh(Scene& scene, const RigMesh& rig, std::span<const float> morph_weights,
+                 std::span<const glm::mat4> world_from_bind, std::span<const int> instances);
 
 }  // namespace lambent

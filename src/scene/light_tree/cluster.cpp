@@ -136,7 +136,7 @@ LightTreeNode node_of(const LightCluster& cluster) {
   // Importance requires a cosine above this bound, but a spot light's cone includes its edge
   node.cos_emission = cluster.cone.cos_emission - (cluster.cone.cos_emission > 0.0f ? 1e-5f : 0.0f);
   node.intensity = static_cast<float>(cluster.intensity);
-  node.mean_sent =
+  node.mean_relative_intensity =
       cluster.intensity > 0.0 ? static_cast<float>(cluster.mean / cluster.intensity) : 0.0f;
   node.both_sides = cluster.cone.both_sides ? 1u : 0u;
   return node;

@@ -20,13 +20,14 @@ const uint kLightGroupSize = 8u;
 
 /// A cluster of lights: bounds of their places, orientations and intensities.
 struct LightTreeNode {
-  vec3 center_ws;      ///< Centre of a box around them [m].
-  vec3 half_size;      ///< Half of its edges [m].
-  vec3 axis_ws;        ///< Axis of a cone that contains their orientations; unit.
-  float cos_spread;    ///< Cosine of that cone's half angle.
-  float sin_spread;    ///< Sine of that cone's half angle.
-  float intensity;     ///< Sum of their intensities along their axes [W/sr], luminance.
-  float mean_sent;     ///< Mean of their intensity over all directions, over `intensity`.
+  vec3 center_ws;    ///< Centre of a box around them [m].
+  vec3 half_size;    ///< Half of its edges [m].
+  vec3 axis_ws;      ///< Axis of a cone that contains their orientations; unit.
+  float cos_spread;  ///< Cosine of that cone's half angle.
+  float sin_spread;  ///< Sine of that cone's half angle.
+  float intensity;   ///< Sum of their intensities along their axes [W/sr], luminance.
+  float
+      mean_relative_intensity;  ///< Mean of their intensity over all directions, over `intensity`.
   float cos_emission;  ///< Cosine of the largest angle from its axis at which a light emits.
   uint both_sides;     ///< 1: some also emit in the opposite direction.
   uint link;           ///< Children or light, as above.

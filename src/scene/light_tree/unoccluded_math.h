@@ -107,7 +107,7 @@ LAMBENT_FN float sent_by_cluster(LightTreeNode node, vec3 from_light) {
     float last = node.cos_emission * node.cos_spread - sin_emission * node.sin_spread;
     sent = clamp((along - last) / max(1.0f - last, 1e-3f), 0.0f, 1.0f);
   }
-  return mix(node.mean_sent, sent, 0.5f + 0.5f * node.cos_spread);
+  return mix(node.mean_relative_intensity, sent, 0.5f + 0.5f * node.cos_spread);
 }
 
 /// Luminance of a white Lambert surface with this unit normal under a cluster that counts as one
