@@ -52,7 +52,7 @@ void ByPower::direct_irradiance(std::span<const DirectLightQuery> queries, std::
     RandomStream random =
         make_random_stream(static_cast<std::uint32_t>(queries[i].index), round, 5u);
     const LightCandidate light = draw(point, random);
-    const glm::vec3 unoccluded = unoccluded_irradiance(point, light);
+    const glm::vec3 unoccluded = unoccluded_irradiance(point, seen_shape(point), light);
     if (unoccluded == glm::vec3(0.0f)) continue;
     rays.push_back(shadow_ray(point.position_ws, point.geometric_normal_ws, light));
     points.push_back(i);

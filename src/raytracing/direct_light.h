@@ -60,6 +60,7 @@ struct LightReceiver {
   LitPoint point;
   const Reflector* reflector = nullptr;  ///< Null: for irradiance, unless there is fog.
   const FogReceiver* fog = nullptr;
+  SeenShape shape{};  ///< seen_shape() of the point, where it has an albedo_shape.
 };
 
 /// How a point's candidates are drawn.
@@ -131,7 +132,8 @@ inline float target_of(const LightReceiver& receiver, LightCandidate light) {
   if (receiver.fog != nullptr) {
     return luminance(scattered_light(*receiver.fog, receiver.point.position_ws, light));
   }
-  if (receiver.reflector == nullptr) return luminance(unoccluded_irradiance(receiver.point, light));
+  if (receiver.reflector == nullptr)
+    return luminance(unoccluded_irradiance(receiver.point, receiver.shape, light));
   const Reflector& to = *receiver.reflector;
   const ReflectedPair pair = sampled_reflection(to.reflectance, to.frame, to.to_viewer,
                                                 receiver.point, light, to.shares, to.samples);

@@ -31,14 +31,20 @@ LAMBENT_FN float target_of(ReceiverRef receiver, LightCandidate light);
 /// defines it after this file.
 LAMBENT_FN PickLobe lobe_of(ReceiverRef receiver);
 
+/// The shape of a point's albedo as its viewer sees it.
+LAMBENT_FN SeenShape seen_shape(LitPointRef point) {
+  return seen_shape(point.albedo_shape, point.normal_ws, point.to_viewer_ws);
+}
+
 /// Irradiance of an unoccluded candidate at a point [W/m^2]. For points with an albedo_shape, it is
-/// weighted by the share that is reflected to the viewer over the albedo.
-LAMBENT_FN vec3 unoccluded_irradiance(LitPointRef point, LightCandidate light) {
+/// weighted by the share that is reflected to the viewer over the albedo. `shape`: seen_shape() of
+/// the point.
+LAMBENT_FN vec3 unoccluded_irradiance(LitPointRef point, SeenShape shape, LightCandidate light) {
   float cosine = dot(point.normal_ws, light.to_light);
   float side = dot(point.geometric_normal_ws, light.to_light);
   if (cosine <= 0.0f || side <= 0.0f) return vec3(0.0f);
-  float reflected = reflected_over_albedo(point.albedo_shape, point.normal_ws, point.to_viewer_ws,
-                                          light.to_light);
+  float reflected =
+      reflected_over_albedo(shape, point.normal_ws, point.to_viewer_ws, light.to_light);
   return light.perpendicular_irradiance * (cosine * reflected);
 }
 

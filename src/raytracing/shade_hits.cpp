@@ -17,8 +17,10 @@ void queue_direct_light(const World& world, const DirectLightQuery& query, std::
   RandomStream random =
       make_random_stream(static_cast<std::uint32_t>(query.index), settings.salt, settings.seed);
   const LightDraws draws{world, settings.emissive_samples, false, settings.candidates};
-  for_each_light(draws, {point}, random, [&](const LightCandidate& light) {
-    const glm::vec3 irradiance = unoccluded_irradiance(point, light);
+  const SeenShape shape = seen_shape(point);
+  const LightReceiver receiver{point, nullptr, nullptr, shape};
+  for_each_light(draws, receiver, random, [&](const LightCandidate& light) {
+    const glm::vec3 irradiance = unoccluded_irradiance(point, shape, light);
     if (irradiance == glm::vec3(0.0f)) return;
     scratch.pending.push_back({place, irradiance});
     scratch.shadow_rays.push_back(shadow_ray(point.position_ws, point.geometric_normal_ws, light));

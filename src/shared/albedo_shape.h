@@ -133,28 +133,49 @@ LAMBENT_FN float albedo_towards(uint shape, float n_dot_l) {
 /// Graphics Forum 32(2), 2013.
 const float kMinAlphaOfHits = 0.25f;
 
-/// Pi times the BRDF, divided by the directional albedo towards the viewer: its mean over light
-/// from a uniform sky is 1.
-LAMBENT_FN float reflected_over_albedo(uint shape, vec3 normal, vec3 to_viewer, vec3 to_light) {
+/// The part of reflected_over_albedo() that depends on the viewer, but not on the light.
+struct SeenShape {
+  uint shape;        ///< See encode_albedo_shape().
+  float diffuse;     ///< Albedo of the base.
+  float f0;          ///< Specular reflectance at normal incidence.
+  float f90;         ///< Specular reflectance at grazing incidence.
+  float alpha;       ///< GGX width, at least kMinAlphaOfHits.
+  float lambda;      ///< ggx_lambda() of the viewer.
+  float lobe_scale;  ///< Albedo of the coat over that of its widened lobe.
+  float albedo;      ///< Directional albedo; 0 where albedo_towards() answers instead.
+};
+
+LAMBENT_FN SeenShape seen_shape(uint shape, vec3 normal, vec3 to_viewer) {
+  SeenShape seen = {shape, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
   float n_dot_v = dot(normal, to_viewer);
-  float n_dot_l = dot(normal, to_light);
-  if (shape == 0u || (shape >> 24u) == 0u || n_dot_v <= 0.0f || n_dot_l <= 0.0f) {
-    return albedo_towards(shape, n_dot_l);
-  }
+  if (shape == 0u || (shape >> 24u) == 0u || n_dot_v <= 0.0f) return seen;
   Reflectance gray = gray_of_shape(shape);
   float base = base_albedo(gray, n_dot_v).x;
   float coat = specular_albedo(gray, n_dot_v).x;
-  if (base + coat <= 0.0f) return 1.0f;
+  if (base + coat <= 0.0f) seen.shape = 0u;
   gray.alpha = max(gray.alpha, kMinAlphaOfHits);
-  float widened = specular_albedo(gray, n_dot_v).x;
+  seen.diffuse = gray.diffuse.x;
+  seen.f0 = gray.f0.x;
+  seen.f90 = gray.f90;
+  seen.alpha = gray.alpha;
+  seen.lambda = ggx_lambda(n_dot_v, gray.alpha);
+  seen.lobe_scale = coat / specular_albedo(gray, n_dot_v).x;
+  seen.albedo = base + coat;
+  return seen;
+}
 
+/// Pi times the BRDF, divided by the directional albedo towards the viewer: its mean over light
+/// from a uniform sky is 1. `seen` is that of seen_shape() for this normal and viewer.
+LAMBENT_FN float reflected_over_albedo(SeenShape seen, vec3 normal, vec3 to_viewer, vec3 to_light) {
+  float n_dot_l = dot(normal, to_light);
+  if (seen.albedo <= 0.0f || n_dot_l <= 0.0f) return albedo_towards(seen.shape, n_dot_l);
   vec3 sum = to_viewer + to_light;
   vec3 h = sum / max(length(sum), 1e-6f);
-  float f = fresnel(gray, dot(to_viewer, h)).x;
-  float d = ggx_distribution(dot(normal, h), gray.alpha);
-  float g = 1.0f / (1.0f + ggx_lambda(n_dot_v, gray.alpha) + ggx_lambda(n_dot_l, gray.alpha));
-  float lobe = kPi * f * d * g / (4.0f * n_dot_v * n_dot_l);
-  return ((1.0f - f) * gray.diffuse.x + lobe * (coat / widened)) / (base + coat);
+  float f = seen.f0 + (seen.f90 - seen.f0) * schlick_power(dot(to_viewer, h));
+  float d = ggx_distribution(dot(normal, h), seen.alpha);
+  float g = 1.0f / (1.0f + seen.lambda + ggx_lambda(n_dot_l, seen.alpha));
+  float lobe = kPi * f * d * g / (4.0f * dot(normal, to_viewer) * n_dot_l);
+  return ((1.0f - f) * seen.diffuse + lobe * seen.lobe_scale) / seen.albedo;
 }
 
 LAMBENT_END

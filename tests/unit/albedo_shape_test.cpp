@@ -75,8 +75,13 @@ TEST(AlbedoTowards, IsOneWithoutACoat) {
   EXPECT_EQ(albedo_towards(shape, 0.2f), 1.0f);
 }
 
-TEST(ReflectedOverAlbedo, HasAMeanOfOneForEveryViewer) {
+/// reflected_over_albedo() on a surface that faces up.
+float reflected(uint shape, const vec3& to_viewer, const vec3& to_light) {
   const vec3 up(0.0f, 0.0f, 1.0f);
+  return reflected_over_albedo(seen_shape(shape, up, to_viewer), up, to_viewer, to_light);
+}
+
+TEST(ReflectedOverAlbedo, HasAMeanOfOneForEveryViewer) {
   for (const float roughness : {0.05f, 0.3f, 0.6f, 1.0f}) {
     for (const Reflectance& surface : coated_surfaces(roughness)) {
       const uint shape = encode_albedo_shape(surface);
@@ -84,7 +89,7 @@ TEST(ReflectedOverAlbedo, HasAMeanOfOneForEveryViewer) {
         double mean = 0.0;
         for (int i = 0; i < kSamples; ++i) {
           const vec3 to_light = sample_cosine_hemisphere(point_of(i));
-          mean += reflected_over_albedo(shape, up, direction_at(cosine), to_light) / kSamples;
+          mean += reflected(shape, direction_at(cosine), to_light) / kSamples;
         }
         // The polynomials of albedos are good to 6 % of a coat of f0 = 0.04
         EXPECT_NEAR(mean, 1.0, 0.06) << roughness << ", " << surface.f0.x << ", " << cosine;
@@ -94,7 +99,6 @@ TEST(ReflectedOverAlbedo, HasAMeanOfOneForEveryViewer) {
 }
 
 TEST(ReflectedOverAlbedo, IsTheReflectionFunctionOfRoughCoats) {
-  const vec3 up(0.0f, 0.0f, 1.0f);
   const Reflectance gray = {vec3(0.3f), 0.49f, vec3(0.04f), 1.0f, no_layers()};
   const uint shape = encode_albedo_shape(gray);
   for (const float cosine : {0.2f, 0.7f}) {
@@ -104,21 +108,20 @@ TEST(ReflectedOverAlbedo, IsTheReflectionFunctionOfRoughCoats) {
       const ReflectedPair pair = evaluate_reflectance(gray, to_viewer, to_light);
       const float expected =
           kPi * (pair.diffuse + pair.specular).x / (to_light.z * effective_albedo(gray, cosine).x);
-      const float found = reflected_over_albedo(shape, up, to_viewer, to_light);
+      const float found = reflected(shape, to_viewer, to_light);
       EXPECT_NEAR(found / expected, 1.0f, 0.02f) << cosine << ", " << i;
     }
   }
 }
 
 TEST(ReflectedOverAlbedo, WidensTheLobesOfMirrors) {
-  const vec3 up(0.0f, 0.0f, 1.0f);
   const Reflectance mirror = {vec3(0.0f), kMinGgxAlpha, vec3(1.0f), 1.0f, no_layers()};
   const vec3 to_viewer = direction_at(0.7f);
   const vec3 mirrored(-to_viewer.x, 0.0f, to_viewer.z);
   const uint shape = encode_albedo_shape(mirror);
-  EXPECT_GT(reflected_over_albedo(shape, up, to_viewer, mirrored), 5.0f);
-  EXPECT_LT(reflected_over_albedo(shape, up, to_viewer, mirrored), 20.0f);
-  EXPECT_LT(reflected_over_albedo(shape, up, to_viewer, to_viewer), 0.5f);
+  EXPECT_GT(reflected(shape, to_viewer, mirrored), 5.0f);
+  EXPECT_LT(reflected(shape, to_viewer, mirrored), 20.0f);
+  EXPECT_LT(reflected(shape, to_viewer, to_viewer), 0.5f);
 }
 
 }  // namespace

@@ -208,7 +208,7 @@ float unoccluded(const Lights& lights, std::uint32_t light, const LitPoint& poin
         sample_punctual(lights.tree.lights()[light - lights.emissive.size()], point.position_ws);
     candidate = {sample.to_light, sample.distance, sample.irradiance, 0};
   }
-  return luminance(unoccluded_irradiance(point, candidate));
+  return luminance(unoccluded_irradiance(point, seen_shape(point), candidate));
 }
 
 void expect_finds_all_that_shine(const Lights& lights, std::uint32_t seed) {

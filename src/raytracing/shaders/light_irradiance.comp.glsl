@@ -3,17 +3,19 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "raytracing/vulkan/shading_records.h"
+#include "shared/albedo_shape.h"
 
 /// What light is drawn for: irradiance at a point.
 struct IrradianceReceiver {
   LitPointRecord point;
+  SeenShape shape;
 };
 #define ReceiverRef IrradianceReceiver
 
 #include "raytracing/shaders/direct_light.glsl"
 
 float target_of(IrradianceReceiver receiver, LightCandidate light) {
-  return luminance(unoccluded_irradiance(receiver.point, light));
+  return luminance(unoccluded_irradiance(receiver.point, receiver.shape, light));
 }
 PickLobe lobe_of(IrradianceReceiver receiver) {
   return no_pick_lobe();
@@ -30,6 +32,7 @@ void main() {
   LitPointRecord point = args.points.at[args.first + i];
   bool asks = point.random_index != kNoDirectLight;
   RandomStream random = make_random_stream(point.random_index, args.salt, args.seed);
+  IrradianceReceiver receiver = IrradianceReceiver(point, seen_shape(point));
   uint slots = slot_count(args);
   LightPicks picks;
   uint rays = 0u;
@@ -37,9 +40,8 @@ void main() {
     RayRecord ray = no_ray();
     vec3 unoccluded = vec3(0.0f);
     if (asks) {
-      LightCandidate light =
-          candidate_of_slot(args, IrradianceReceiver(point), slot, picks, random);
-      unoccluded = unoccluded_irradiance(point, light);
+      LightCandidate light = candidate_of_slot(args, receiver, slot, picks, random);
+      unoccluded = unoccluded_irradiance(point, receiver.shape, light);
       if (unoccluded != vec3(0.0f)) ray = shadow_ray(point, light);
     }
     args.unoccluded_irradiance.at[slot * args.count + i] = unoccluded;

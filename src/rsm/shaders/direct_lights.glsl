@@ -19,7 +19,7 @@ struct AskingReceiver {
 #include "raytracing/shaders/direct_light.glsl"
 
 float target_of(AskingReceiver receiver, LightCandidate light) {
-  return luminance(unoccluded_irradiance(receiver.point, light));
+  return luminance(unoccluded_irradiance(receiver.point, seen_shape(receiver.point), light));
 }
 PickLobe lobe_of(AskingReceiver receiver) {
   return no_pick_lobe();
