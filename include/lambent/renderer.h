@@ -101,8 +101,8 @@ Expected<void> check(const FrameSettings& settings);
 
 struct RenderedFrame {
   /// Linear radiance and its parts, see docs/overview.md: "" (the whole), direct, indirect,
-  /// irradiance, glossy, emission, fog, albedo, normal, position, depth, and motion where it was
-  /// asked for. As high as the rows that were rendered.
+  /// irradiance, glossy, transmission, emission, fog, albedo, normal, position, depth, and motion
+  /// where it was asked for. As high as the rows that were rendered.
   LayeredImage image;
   std::vector<PassTime> passes;  ///< In the order of the frame.
   std::uint64_t rays = 0;        ///< Traced primary, gather and shadow rays.
@@ -124,7 +124,7 @@ struct IndirectSources {
 /// light from the sources. Surfaces without a diffuse base reflect the light of the field, or
 /// without a field, that of the maps. The memory of its passes is reused from picture to picture,
 /// and grows only where one needs more: about 50 MB, for maps as RsmSettings say, and on a device
-/// 124 bytes for each pixel of a picture. Not thread-safe.
+/// 136 bytes for each pixel of a picture. Not thread-safe.
 class Renderer {
  public:
   /// Refers to the world and to the sources' fields, which must outlive it and must not be moved;

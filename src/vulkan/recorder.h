@@ -58,28 +58,28 @@ class Recorder {
   template <class Arguments>
   void run(const Kernel& kernel, const Arguments& arguments, std::uint32_t x, std::uint32_t y = 1,
            std::uint32_t z = 1) {
-    static_assert(sizeof(Arguments) <= 128);
+    static_assert(sizeof(Arguments) <= kMaxArgumentBytes);
     dispatch(kernel, &arguments, sizeof(Arguments), x, y, z);
   }
   /// Runs a kernel over a number of groups that the device wrote to `groups`: three words.
   template <class Arguments>
   void run_indirect(const Kernel& kernel, const Arguments& arguments, const Buffer& groups,
                     std::size_t offset = 0) {
-    static_assert(sizeof(Arguments) <= 128);
+    static_assert(sizeof(Arguments) <= kMaxArgumentBytes);
     dispatch_indirect(kernel, &arguments, sizeof(Arguments), groups, offset);
   }
   /// Runs a ray generation shader at least `count` times, in rows; invocations beyond must do
   /// nothing.
   template <class Arguments>
   void trace(const RayKernel& kernel, const Arguments& arguments, std::uint32_t count) {
-    static_assert(sizeof(Arguments) <= 128);
+    static_assert(sizeof(Arguments) <= kMaxArgumentBytes);
     trace_rays(kernel, &arguments, sizeof(Arguments), count);
   }
   /// Runs a ray generation shader for a width, height and depth that the device wrote to `size`.
   template <class Arguments>
   void trace_indirect(const RayKernel& kernel, const Arguments& arguments, const Buffer& size,
                       std::size_t offset = 0) {
-    static_assert(sizeof(Arguments) <= 128);
+    static_assert(sizeof(Arguments) <= kMaxArgumentBytes);
     trace_rays_indirect(kernel, &arguments, sizeof(Arguments), size, offset);
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The importance of a cluster of lights for a point: the weights by which a light tree is
-// traversed.
+// Clusters of lights in a light tree, and the bounds from which their importance for a point is
+// computed; importance_of() of light_importance.inl.h is the formula.
 // Based on: Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree
 // Splitting", PACMCGIT 1(2), 2018.
 #ifndef LAMBENT_SCENE_LIGHT_TREE_MATH_H
