@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vulkan/buffer.h"
+#include "vulkan/device.h"
 #include "vulkan/kernel.h"
 
 namespace lambent::vulkan {
