@@ -5,6 +5,7 @@
 #include "compose/gbuffer.h"
 #include "core/parallel.h"
 #include "raytracing/direct_light.h"
+#include "raytracing/sky/sky_light.h"
 #include "raytracing/world_access.h"
 #include "scene/light_tree/unoccluded_light.h"
 #include "shared/demodulate.h"
@@ -13,11 +14,14 @@
 namespace lambent {
 namespace {
 
-/// Light that a pixel receives if a shadow ray is unoccluded.
+enum class LightSource { exact, emitter, sky };
+
+/// Light that a pixel receives if a shadow ray is unoccluded. That of the sky is what its coat
+/// reflects (`specular`), and what its clearcoat does (`diffuse`).
 struct PendingLight {
   std::size_t pixel;
   ReflectedPair light;
-  bool of_emitter;
+  LightSource source;
 };
 
 /// Draws the candidates of a pixel's direct light, attenuated by fog, and queues their shadow rays.
@@ -49,9 +53,26 @@ void queue_direct_light(const LightDraws& draws, const Media& media, const GBuff
       pair.specular *= passed;
     }
     if (pair.diffuse + pair.specular == vec3(0.0f)) continue;
-    pending.push_back({pixel, pair, slot >= enumerated_lights(draws)});
+    pending.push_back(
+        {pixel, pair,
+         slot >= enumerated_lights(draws) ? LightSource::emitter : LightSource::exact});
     shadows.push_back(shadow_ray(point.position_ws, point.geometric_normal_ws, candidate));
   }
+
+  // Sample the bright part of the sky
+  const SkyReflector coats{surface.reflectance, frame, to_viewer, point.geometric_normal_ws,
+                           shares};
+  const SkyCandidate sky = sample_reflected_sky(sky_of(draws.world), coats, random);
+  ReflectedPair pair{sky.light.clearcoat, sky.light.coat};
+  if (pair.diffuse + pair.specular == vec3(0.0f)) return;
+  if (!media.empty()) {
+    const float passed = transmittance(media, point.position_ws, sky.direction_ws, infinity());
+    pair.diffuse *= passed;
+    pair.specular *= passed;
+  }
+  pending.push_back({pixel, pair, LightSource::sky});
+  shadows.push_back(shadow_ray(point.position_ws, point.geometric_normal_ws,
+                               LightCandidate{sky.direction_ws, infinity(), vec3(1.0f), 0u}));
 }
 
 /// Adds light of emitters to a pixel's sum, and its squared luminance to `squares`.
@@ -86,6 +107,9 @@ std::uint64_t shade_direct(const World& world, const GBuffer& gbuffer,
   light.emitter_specular.assign(emitters > 0 ? gbuffer.size() : 0, vec3(0.0f));
   light.emitter_variance.assign(emitters > 1 ? gbuffer.size() : 0, 0.0f);
   light.unoccluded.assign(emitters > 0 ? gbuffer.size() : 0, 0.0f);
+  const bool bright_sky = sky_of(world).has_bright_part() && !gbuffer.coat_shares.empty();
+  light.sky.assign(bright_sky ? gbuffer.size() : 0, vec3(0.0f));
+  light.sky_in_clearcoats.assign(bright_sky ? gbuffer.size() : 0, vec3(0.0f));
   const std::size_t first_pixel = static_cast<std::size_t>(band.first_row) * settings.width;
   std::atomic<std::uint64_t> rays = 0;
 
@@ -107,7 +131,12 @@ std::uint64_t shade_direct(const World& world, const GBuffer& gbuffer,
       const std::size_t pixel = pending[k].pixel;
       const vec3 diffuse = share * pending[k].light.diffuse;
       const vec3 specular = share * pending[k].light.specular;
-      if (emitters == 0 || !pending[k].of_emitter) {
+      if (pending[k].source == LightSource::sky) {
+        light.sky[pixel] += specular;
+        light.sky_in_clearcoats[pixel] += diffuse;
+        continue;
+      }
+      if (emitters == 0 || pending[k].source == LightSource::exact) {
         light.diffuse[pixel] += diffuse;
         light.specular[pixel] += specular;
         continue;

@@ -234,9 +234,10 @@ class FramePassesCpu final : public FramePasses {
 
   void glossy() override {
     now_->frame.rays +=
-        reflect_clearcoats(request(), band_, sample_, gbuffer_, glossy_, light_.clearcoats);
-    now_->frame.rays +=
-        reflect_band(request(), band_, sample_, CoatKind::coat, gbuffer_, glossy_, light_.coats);
+        reflect_clearcoats(request(), band_, sample_, gbuffer_, light_.direct.sky_in_clearcoats,
+                           glossy_, light_.clearcoats);
+    now_->frame.rays += reflect_band(request(), band_, sample_, CoatKind::coat, gbuffer_,
+                                     light_.direct.sky, glossy_, light_.coats);
     look_up_coats(request(), gbuffer_, light_.coats, glossy_, light_.mirror_irradiance);
     finish_pass("glossy");
   }

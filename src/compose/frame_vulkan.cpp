@@ -130,7 +130,10 @@ void FramePassesVulkan::direct() {
   reserve<vec3>(apart ? pixels_ : 0, "direct drawn", memory_.emitters);
   reserve<float>(apart ? pixels_ : 0, "squares of direct drawn", memory_.emitter_squares);
   reserve<vec3>(apart ? pixels_ : 0, "specular drawn", memory_.emitter_specular);
-  add("direct", [this, apart](Recorder& to) {
+  const bool sky = traces_coats(*request_) && world_.scene().has_bright_sky();
+  reserve<vec3>(sky ? pixels_ : 0, "sky in coats", memory_.sky);
+  reserve<vec3>(sky ? pixels_ : 0, "sky in clearcoats", memory_.sky_in_clearcoats);
+  add("direct", [=, this](Recorder& to) {
     ShadeHitsSettings shading;
     shading.emissive_samples = request_->settings.emissive_samples;
     shading.emitters_alone = asks_lights_in_sub_images(*request_);
@@ -142,7 +145,9 @@ void FramePassesVulkan::direct() {
          {memory_.specular.address()},
          {apart ? memory_.emitters.address() : 0},
          {apart ? memory_.emitter_squares.address() : 0},
-         {apart ? memory_.emitter_specular.address() : 0}});
+         {apart ? memory_.emitter_specular.address() : 0},
+         {sky ? memory_.sky.address() : 0},
+         {sky ? memory_.sky_in_clearcoats.address() : 0}});
   });
 }
 

@@ -160,6 +160,7 @@ struct FrameMemory {
   vulkan::Buffer rays, cones, hits, points, surfaces, diffuse, specular;
   vulkan::Buffer queries, irradiance, mirror_irradiance, subtracted_field, from_maps;
   vulkan::Buffer gathered_variance, emitters, emitter_squares, emitter_specular;
+  vulkan::Buffer sky, sky_in_clearcoats;
   // For the rays that gather the light of some pixels at a time
   vulkan::Buffer gathering_rays, gathering_indices, gathered_hits, gathered_points, gathered,
       gathered_direct, gathered_field;
@@ -178,6 +179,7 @@ struct FrameMemory {
   vulkan::Buffer path_hits, path_points, path_surfaces, path_diffuse, path_specular;
   vulkan::Buffer path_queries, path_answers;
   vulkan::Buffer path_drawn, path_drawn_squares, path_drawn_specular, coat_distances;
+  vulkan::Buffer path_sky, path_sky_in_clearcoats;
   // Fog: its froxels, and its effect on a band's pixels
   FroxelFog fog;
   vulkan::Buffer media, froxels, fog_record, pixel_fog;
@@ -240,8 +242,8 @@ class FramePassesVulkan final : public FramePasses {
   void look_up(const char* name, const IrradianceField& field, const Buffer& queries,
                std::uint32_t count, CorrectionUse use, const Buffer& irradiance);
   /// Lights the coats of the rows around the band, which see_around_band() has filled in, by rays;
-  /// see Glossy::reflect. Returns whether there are any rays.
-  bool trace_coats(const Band& around, std::uint32_t seed);
+  /// see Glossy::reflect. `sky`: see reflect_band(). Returns whether there are any rays.
+  bool trace_coats(const Band& around, std::uint32_t seed, const Buffer& sky);
   /// The rows whose rays the band's coats reflect.
   Band rows_around_band() const;
   void see_around_band(const Band& around);
@@ -255,7 +257,7 @@ class FramePassesVulkan final : public FramePasses {
   bool follow_all(std::uint32_t first_bounce, std::uint32_t first_index, std::uint32_t salt);
   void follow_paths(std::uint32_t paths, std::uint32_t bounce, std::uint32_t first_index,
                     std::uint32_t salt);
-  void reuse_coat_rays(const Band& around);
+  void reuse_coat_rays(const Band& around, const Buffer& sky);
   /// Samples of emitters at each hit behind glass; 0 where nothing is drawn at random.
   std::uint32_t draws_behind_glass() const;
   void begin_through(std::size_t pixels);

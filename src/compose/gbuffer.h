@@ -76,6 +76,9 @@ struct ReflectedLight {
   /// Luminance that emitters would send to white Lambert surfaces if nothing were in the way,
   /// without noise; empty where `emitters` is.
   std::vector<float> unoccluded;
+  /// What coats and clearcoats whose light comes from rays reflect of the bright part of the sky;
+  /// empty where the sky has none.
+  std::vector<glm::vec3> sky, sky_in_clearcoats;
 };
 
 /// Computes the surfaces' direct light. Light of emissive surfaces is stored apart where the

@@ -19,6 +19,7 @@ struct CoatRay {
                       ///< Rays through surfaces have 0; where there is no such ray, `distance` is
                       ///< below 0.
   vec3 apart;         ///< Light that is stored apart, see CoatPath::stage [W/(m^2 sr)].
+  float apart_density;  ///< Of kStageOwnCoat: density with which samples of lights find it [1/sr].
 };
 LAMBENT_DEVICE_ARRAY(CoatRayArray, CoatRay, 4)
 
@@ -26,8 +27,8 @@ LAMBENT_DEVICE_ARRAY(CoatRayArray, CoatRay, 4)
 // stored in CoatRay::apart.
 /// It left the pixel's surface, or a coat that it hit. Nothing is stored apart.
 const uint kStageOther = 0u;
-/// It left the pixel's coat, and no other coat has reflected it. The emission that it hits is
-/// stored apart, as the pixel's direct light samples it, too.
+/// It left the pixel's coat, and no other coat has reflected it. The emission that it hits, or the
+/// bright part of the sky, is stored apart, as the pixel's direct light samples it, too.
 const uint kStageOwnCoat = 1u;
 /// It came through glass to the first opaque surface. Nothing is stored apart.
 const uint kStageBehindGlass = 2u;

@@ -229,7 +229,6 @@ struct CoatReceiver {
   CoatLobe lobe;
   Reflectance reflectance;  ///< See coat_under_layers().
   float inverse_tolerance;  ///< One over kPlaneTolerance pixels at its depth [1/m].
-  uint emitter_samples;     ///< Samples of its direct light; FrameSettings::emissive_samples.
   CoatRay own;              ///< The pixel's own ray; pdf 0 where it has none.
   LobeValue at_own;         ///< The lobe's value for that ray.
   vec3 mirror_ws;           ///< The mirror direction, where the lobe is about densest.
@@ -246,8 +245,8 @@ LAMBENT_FN void find_lobe(LAMBENT_INOUT(CoatReceiver) at) {
 
 /// Weighted sums over rays.
 struct CoatSums {
-  vec3 light;        ///< Reflected light, without the emission that rays hit.
-  vec3 emission;     ///< Reflected light of the emission that rays hit.
+  vec3 light;        ///< Reflected light, without what direct light samples, too.
+  vec3 emission;     ///< Reflected light that direct light samples, too; see CoatRay::apart.
   float weight;      ///< Sum of the rays' weights.
   float schlick;     ///< Sum of the weights times Schlick's (1 - v_dot_h)^5 of each ray.
   float own_weight;  ///< Weight of the pixel's own ray.
@@ -255,15 +254,15 @@ struct CoatSums {
   float fitting;     ///< Part of `pixels` whose lobes match the receiver's.
 };
 
-/// Adds the light of a ray with a weight, given the receiver's lobe for its direction. Emission is
-/// also multiplied by the multiple importance sampling weight that a ray of the receiver's own lobe
-/// has: its direct light has the rest.
+/// Adds the light of a ray with a weight, given the receiver's lobe for its direction. What direct
+/// light samples, too, is also multiplied by the multiple importance sampling weight that a ray of
+/// the receiver's own lobe has: its direct light has the rest.
 LAMBENT_FN void add_light_of_ray(CoatReceiver at, LobeValue lobe, vec3 direction_ws, CoatRay ray,
                                  float weight, LAMBENT_INOUT(CoatSums) sums) {
   if (dot(at.lobe.geometric_normal_ws, direction_ws) <= 0.0f) return;
   vec3 reflected = weight * fresnel(at.reflectance, lobe.v_dot_h);
   sums.light += reflected * ray.radiance;
-  sums.emission += reflected * (found_emitter_weight(lobe.pdf, at.emitter_samples) * ray.apart);
+  sums.emission += reflected * (found_light_weight(lobe.pdf, ray.apart_density) * ray.apart);
 }
 
 /// Adds the light of a neighbour's ray, and the weight of the receiver's own ray beside it.

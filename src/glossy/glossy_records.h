@@ -48,6 +48,7 @@ struct ThroughRaysArguments {
 
 /// Shades hits of the sky and of emitters, and writes two field queries for each path.
 struct CoatHitsArguments {
+  SceneArray scene;
   HitArray hits;  ///< One a path, as are the next five arrays (queries: two a path).
   LitPointArray points;
   PixelSurfaceArray surfaces;
@@ -58,10 +59,10 @@ struct CoatHitsArguments {
   FloatArray coat_distances;  ///< For paths that gather the light of coats behind glass.
   uint count;                 ///< Number of paths.
   uint bounce;
-  uint emitter_samples;  ///< Samples of the direct light of their hits.
-  uint first_index;      ///< Index of the first pixel in the picture.
-  uint has_field;        ///< 1: there is a field to look up.
-  uint padding;
+  uint emitter_samples;        ///< Samples of the direct light of their hits.
+  uint first_index;            ///< Index of the first pixel in the picture.
+  uint has_field;              ///< 1: there is a field to look up.
+  uint pixel_emitter_samples;  ///< Samples of the pixels' own direct light.
 };
 
 /// Adds the light that hits reflect, and appends the paths that go on.
@@ -124,6 +125,7 @@ struct CoatReuseArguments {
   CoatRayArray coat_rays;
   Vec4Array light;               ///< See CoatLight; one a pixel of the band.
   FloatArray inverse_distances;  ///< See CoatLight; written where `finds_distances` is 1.
+  Vec3Array sky;                 ///< See reflect_band(); one a pixel, read where `has_sky` is 1.
   vec3 camera_ws;
   vec3 camera_back;   ///< Unit; against the direction of view.
   float pixel_width;  ///< [m], at a distance of one metre; orthographic cameras: everywhere.
@@ -135,7 +137,7 @@ struct CoatReuseArguments {
   uint height;
   uint rows;
   uint sample_index;
-  uint emitter_samples;
+  uint has_sky;
   uint finds_distances;
   uint padding;
 };

@@ -5,6 +5,7 @@
 
 #include "glossy/glossy_math.h"
 #include "raytracing/transmission_math.h"
+#include "scene/sky/bright_sky.h"
 #include "shared/demodulate.h"
 
 LAMBENT_BEGIN
@@ -73,17 +74,36 @@ LAMBENT_FN void add_radiance(CoatPath path, vec3 light, LAMBENT_INOUT(CoatRay) r
   }
 }
 
-/// Adds the emission at a path's hit to the light of its pixel's ray. The direct light of the coat
-/// that the path left last samples emitters, too, and multiple importance sampling combines the two
-/// estimates. Coats on paths take `emitter_samples` samples. Pixels' coats may take another number:
-/// their emission is stored apart, and weighted later.
-LAMBENT_FN void meet_emitter(CoatPath path, vec3 emission, uint emitter_samples,
-                             LAMBENT_INOUT(CoatRay) ray) {
-  if (path.stage == kStageOwnCoat) {
-    ray.apart += path.throughput * emission;
+/// Adds light that samples of lights find with `density` [1/sr], too, at a path's hit, to the light
+/// of its pixel's ray. Multiple importance sampling combines the two estimates. Light that pixels'
+/// coats find is stored apart: neighbouring pixels, which reflect it as well, weigh it by their own
+/// lobes.
+LAMBENT_FN void meet_light(CoatPath path, vec3 radiance, float density,
+                           LAMBENT_INOUT(CoatRay) ray) {
+  if (radiance == vec3(0.0f)) return;
+  // A ray through glowing glass can meet lights of two densities; the first decides
+  bool is_first = ray.apart == vec3(0.0f);
+  if (path.stage == kStageOwnCoat && (is_first || ray.apart_density == density)) {
+    ray.apart += path.throughput * radiance;
+    ray.apart_density = density;
   } else {
-    add_radiance(path, found_emitter_weight(path.pdf, emitter_samples) * emission, ray);
+    add_radiance(path, found_light_weight(path.pdf, density) * radiance, ray);
   }
+}
+
+/// Adds the emission at a path's hit to the light of its pixel's ray. The direct light of the coat
+/// that the path left last takes `path_samples` samples of emitters; that of pixels' coats takes
+/// `pixel_samples`.
+LAMBENT_FN void meet_emitter(CoatPath path, vec3 emission, uint path_samples, uint pixel_samples,
+                             LAMBENT_INOUT(CoatRay) ray) {
+  uint samples = path.stage == kStageOwnCoat ? pixel_samples : path_samples;
+  meet_light(path, emission, emitter_density(samples), ray);
+}
+
+/// Adds the sky that a path meets to the light of its pixel's ray. Coats sample its bright part.
+LAMBENT_FN void meet_sky(CoatPath path, SkySeen sky, LAMBENT_INOUT(CoatRay) ray) {
+  add_radiance(path, sky.dim, ray);
+  meet_light(path, sky.bright, float(kSkyCandidates) * sky.density, ray);
 }
 
 /// The tint that transmitted light is divided by before it is filtered.

@@ -121,13 +121,12 @@ struct Receivers {
   V3 mirror;
   V inverse_mirror_pdf;
   V3 f0, to_f90;
-  V emitter_density;
 
   V3 light, emission;
   V weight, schlick, own_weight, pixels, fitting;
 };
 
-HWY_INLINE Receivers receivers_at(const Planes& coats, const Planes& more, uint emitter_samples) {
+HWY_INLINE Receivers receivers_at(const Planes& coats, const Planes& more) {
   const V zero = number(0.0f);
   Receivers at;
   at.position = coats.three_at(kLobePosition);
@@ -146,7 +145,6 @@ HWY_INLINE Receivers receivers_at(const Planes& coats, const Planes& more, uint 
   at.inverse_mirror_pdf = more.at(kInverseMirrorPdf);
   at.f0 = more.three_at(kF0);
   at.to_f90 = minus(more.three_at(kF90), at.f0);
-  at.emitter_density = number(kEmitterDensity * static_cast<float>(emitter_samples));
   at.light = at.emission = {zero, zero, zero};
   at.weight = at.schlick = at.own_weight = at.pixels = at.fitting = zero;
   return at;
@@ -179,8 +177,8 @@ HWY_INLINE void add_light(Receivers& at, const Planes& from, V m5, V lobe_pdf_th
   at.light.x = hn::Add(at.light.x, hn::Mul(reflected.x, radiance.x));
   at.light.y = hn::Add(at.light.y, hn::Mul(reflected.y, radiance.y));
   at.light.z = hn::Add(at.light.z, hn::Mul(reflected.z, radiance.z));
-  // Compute found_emitter_weight()
-  const V ratio = hn::Div(at.emitter_density, lobe_pdf_there);
+  // Compute found_light_weight()
+  const V ratio = hn::Div(from.at(kRayEmissionDensity), lobe_pdf_there);
   const V found = hn::IfThenElseZero(hn::Gt(lobe_pdf_there, number(0.0f)),
                                      hn::Div(one, hn::Add(one, hn::Mul(ratio, ratio))));
   const V3 emission = times(from.three_at(kRayEmission), found);
@@ -270,8 +268,7 @@ void reuse_in_lanes(const ReuseRow& row, RowPlanes& sums) {
   const std::size_t pitch = row.coats.pitch();
   for (int x = 0; x < row.width; x += lanes) {
     const Planes own{row.coats.at(row.row, 0) + x, pitch};
-    Receivers at =
-        receivers_at(own, {row.receivers.at(row.receiver_row, 0) + x, pitch}, row.emitter_samples);
+    Receivers at = receivers_at(own, {row.receivers.at(row.receiver_row, 0) + x, pitch});
     if (hn::AllFalse(D(), at.receive)) continue;
     for (const NeighbourRow& neighbours : row.around) {
       for (int dx = -kReuse; dx <= kReuse; ++dx) {

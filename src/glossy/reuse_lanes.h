@@ -24,7 +24,8 @@ enum CoatPlane : int {
   kRayPdf = 19,
   kRayRadiance = 20,
   kRayEmission = 23,
-  kCoatPlanes = 26
+  kRayEmissionDensity = 26,
+  kCoatPlanes = 27
 };
 
 /// Further numbers of a pixel that receives the light of rays.
@@ -106,7 +107,6 @@ struct ReuseRow {
   int row;           ///< The pixels' row in `coats`.
   int receiver_row;  ///< Their row in `receivers` and in the sums.
   int width;         ///< [pixels]
-  uint emitter_samples;
   std::span<const NeighbourRow> around;
 };
 

@@ -32,6 +32,7 @@ void set_coat(RowPlanes& coats, int row, int x, const CoatLobe& lobe, const Coat
   put(coats, row, kRayPdf, x, ray.pdf);
   put(coats, row, kRayRadiance, x, ray.radiance);
   put(coats, row, kRayEmission, x, ray.apart);
+  put(coats, row, kRayEmissionDensity, x, ray.apart_density);
 }
 
 void set_no_coat(RowPlanes& coats, int row, int x) {

@@ -40,11 +40,22 @@ LAMBENT_FN float traced_coat_share(Reflectance surface) {
   return t * t * (3.0f - 2.0f * t);
 }
 
-/// Weight of an emitter that a coat's ray hit, drawn with density `pdf` [1/sr], where the direct
-/// light takes `emitter_samples` samples. The power heuristic (Veach 1997, sec. 9.2) with an
-/// assumed density in place of that of the sampling: sums remain unbiased for any densities.
+/// Weight of light that a coat's ray found, drawn with density `pdf`, where samples of lights find
+/// it with `density`, that of one times their number [1/sr]. The power heuristic (Veach 1997,
+/// sec. 9.2): sums remain unbiased for any densities.
+LAMBENT_FN float found_light_weight(float pdf, float density) {
+  return pdf > 0.0f ? mis_power_weight(pdf, density) : 0.0f;
+}
+
+/// Density with which `emitter_samples` samples of emitters are taken to find one [1/sr].
+LAMBENT_FN float emitter_density(uint emitter_samples) {
+  return kEmitterDensity * float(emitter_samples);
+}
+
+/// Weight of an emitter that a coat's ray hit, where the direct light takes `emitter_samples`
+/// samples: found_light_weight() with an assumed density in place of that of the sampling.
 LAMBENT_FN float found_emitter_weight(float pdf, uint emitter_samples) {
-  return pdf > 0.0f ? mis_power_weight(pdf, kEmitterDensity * float(emitter_samples)) : 0.0f;
+  return found_light_weight(pdf, emitter_density(emitter_samples));
 }
 
 /// Weight of a sample of emitters in a coat's direct light, where rays supply the share

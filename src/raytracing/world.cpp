@@ -12,7 +12,7 @@
 #include "raytracing/world_access.h"
 #include "scene/light_sampling.h"
 #include "scene/light_tree/light_tree.h"
-#include "scene/sky_levels.h"
+#include "scene/sky/sky_levels.h"
 #if LAMBENT_VULKAN
 #include "raytracing/vulkan/device_world.h"
 #endif

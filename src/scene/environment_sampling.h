@@ -7,7 +7,7 @@
 
 #include "lambent/scene.h"
 #include "scene/latitude_longitude.h"
-#include "scene/sky_levels.h"
+#include "scene/sky/sky_levels.h"
 
 namespace lambent {
 
@@ -33,7 +33,27 @@ inline vec3 fetch_map(const Image& map, int x, int y) {
   return {p[0], p[1], p[2]};
 }
 
-#include "scene/environment.inl.h"
+inline float bright_limit(const SkyLevels& sky) {
+  return sky.bright_limit();
+}
+
+inline float bright_total(const SkyLevels& sky) {
+  return sky.bright_total();
+}
+
+inline uint bright_cell_count(const SkyLevels& sky) {
+  return static_cast<uint>(sky.bright_cells().size());
+}
+
+inline const BrightSkyCell& fetch_bright_cell(const SkyLevels& sky, uint cell) {
+  return sky.bright_cells()[cell];
+}
+
+inline const Image& dim_level(const SkyLevels& sky, int level) {
+  return sky.dim_level(level);
+}
+
+#include "scene/sky/bright_sky.inl.h"
 
 /// A direction drawn from the sky.
 struct EnvironmentSample {

@@ -49,7 +49,7 @@ FlatView view_of(float alpha, uint sample) {
       const CoatDraw drawn = draw_coat_ray(view.metal, make_frame(lobe.normal_ws),
                                            lobe.to_viewer_ws, coat_uniforms({x, y}, sample, 1, 1));
       const float distance = kWall / drawn.direction_ws.z;
-      view.rays.push_back({drawn.direction_ws, distance, vec3(1.0f), drawn.pdf, vec3(0.0f)});
+      view.rays.push_back({drawn.direction_ws, distance, vec3(1.0f), drawn.pdf, vec3(0.0f), 0.0f});
     }
   }
   return view;
@@ -63,7 +63,6 @@ vec2 range_of(const FlatView& view, uint sample) {
       CoatReceiver at{fetch_lobe(view, {x, y}),
                       view.metal,
                       1.0f / (kPlaneTolerance * kPixel),
-                      1,
                       fetch_ray(view, {x, y}),
                       {},
                       {},

@@ -70,7 +70,7 @@ class RayReuseTest : public testing::Test {
   }
 
   CoatRay ray_of(const GBuffer& pixels, std::size_t i) {
-    CoatRay ray{vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f)};
+    CoatRay ray{vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f), 0.0f};
     if (pixels.coat_shares[i] <= 0.0f || uniform() < 0.1f) return ray;
     const Surface& surface = pixels.surfaces[i];
     const CoatDraw drawn = draw_coat_ray(surface.reflectance, make_frame(surface.normal_ws),
@@ -80,7 +80,10 @@ class RayReuseTest : public testing::Test {
     ray.direction_ws = drawn.direction_ws;
     if (uniform() > 0.2f) ray.distance = 0.2f + 5.0f * uniform();
     ray.radiance = vec3(uniform(), uniform(), 3.0f * uniform());
-    if (uniform() < 0.2f) ray.apart = vec3(20.0f, 10.0f, 5.0f);
+    if (uniform() < 0.2f) {
+      ray.apart = vec3(20.0f, 10.0f, 5.0f);
+      ray.apart_density = 40.0f * uniform();
+    }
     return ray;
   }
 
@@ -92,7 +95,6 @@ class RayReuseTest : public testing::Test {
     CoatReceiver at{fetch_lobe(picture, pixel),
                     surface.reflectance,
                     inverse_plane_tolerance(settings.camera, surface.position_ws),
-                    static_cast<uint>(settings.frame.emissive_samples),
                     fetch_ray(picture, pixel),
                     {},
                     {},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/sky_levels.h"
+#include "scene/sky/sky_levels.h"
 
 #include <gtest/gtest.h>
 

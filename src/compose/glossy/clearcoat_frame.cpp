@@ -33,8 +33,8 @@ bool filters_clearcoats(const FrameRequest& request) {
 }
 
 std::uint64_t reflect_clearcoats(const FrameRequest& request, const Band& band, int sample,
-                                 const GBuffer& pixels, GlossyMemory& memory,
-                                 std::vector<glm::vec3>& light) {
+                                 const GBuffer& pixels, std::span<const glm::vec3> sky,
+                                 GlossyMemory& memory, std::vector<glm::vec3>& light) {
   light.clear();
   bool any = false;
   for (std::size_t i = 0; i < pixels.size() && !any; ++i) {
@@ -47,7 +47,7 @@ std::uint64_t reflect_clearcoats(const FrameRequest& request, const Band& band, 
   show_clearcoats(coats);
   if (traces_coats(request)) find_coat_shares(coats);
   const std::uint64_t rays =
-      reflect_band(request, band, sample, CoatKind::clearcoat, coats, memory, by_rays);
+      reflect_band(request, band, sample, CoatKind::clearcoat, coats, sky, memory, by_rays);
   look_up_coats(request, coats, by_rays, memory, memory.clearcoat_irradiance);
   const bool filters = filters_clearcoats(request);
   light.assign(pixels.size(), vec3(0.0f));

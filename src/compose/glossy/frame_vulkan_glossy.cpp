@@ -34,7 +34,7 @@ void FramePassesVulkan::glossy() {
   if (traces_coats(*request_) && has_coats(request_->world.scene())) {
     const Band around = rows_around_band();
     see_around_band(around);
-    if (trace_coats(around, request_->settings.seed)) ray_light_flags_ |= kHasCoats;
+    if (trace_coats(around, request_->settings.seed, memory_.sky)) ray_light_flags_ |= kHasCoats;
   }
   look_up_coats(memory_.points.address(), memory_.surfaces.address());
 }
@@ -130,7 +130,7 @@ std::uint32_t FramePassesVulkan::count_paths(const PathBuffers& list) {
   return count;
 }
 
-bool FramePassesVulkan::trace_coats(const Band& around, std::uint32_t seed) {
+bool FramePassesVulkan::trace_coats(const Band& around, std::uint32_t seed, const Buffer& sky) {
   const auto width = static_cast<std::uint32_t>(request_->settings.width);
   const int first_row = around.first_row;
   const std::uint32_t pixels = static_cast<std::uint32_t>(around.rows) * width;
@@ -154,7 +154,7 @@ bool FramePassesVulkan::trace_coats(const Band& around, std::uint32_t seed) {
   path_pass_ = "glossy";
   path_seed_ = seed;
   if (!follow_all(1, first_index, sample_)) return false;
-  reuse_coat_rays(around);
+  reuse_coat_rays(around, sky);
   return true;
 }
 
@@ -185,6 +185,9 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
   reserve<vec3>(drawn, "drawn light of paths", m.path_drawn);
   reserve<float>(drawn, "squares of drawn light of paths", m.path_drawn_squares);
   reserve<vec3>(drawn, "drawn specular light of paths", m.path_drawn_specular);
+  const bool sky_apart = keeps_behind && world_.scene().has_bright_sky();
+  reserve<vec3>(sky_apart ? paths : 0, "sky in paths", m.path_sky);
+  reserve<vec3>(sky_apart ? paths : 0, "sky in clearcoats of paths", m.path_sky_in_clearcoats);
   reserve<QueryRecord>(2 * std::size_t{paths}, "queries of paths", m.path_queries);
   reserve<vec3>(2 * std::size_t{paths}, "answers of paths", m.path_answers);
   frame_->rays += paths;
@@ -199,6 +202,7 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
     to.barrier();
     m.gather_shading.pixel_surfaces(to, stage(), hits, 0, false, met);
     const CoatHitsArguments shaded = {
+        {world_.scene().address()},
         hits.hits,
         met.points,
         met.surfaces,
@@ -212,7 +216,7 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
         static_cast<uint>(request_->settings.reflected_emissive_samples),
         first_index,
         has_field ? 1u : 0u,
-        0u};
+        static_cast<uint>(request_->settings.emissive_samples)};
     to.run(kernels_.coat_hits, shaded, paths);
     to.barrier();
     ShadeHitsSettings lighting;
@@ -224,7 +228,9 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
                                       {m.path_specular.address()},
                                       {apart ? m.path_drawn.address() : 0},
                                       {apart ? m.path_drawn_squares.address() : 0},
-                                      {apart ? m.path_drawn_specular.address() : 0}});
+                                      {apart ? m.path_drawn_specular.address() : 0},
+                                      {sky_apart ? m.path_sky.address() : 0},
+                                      {sky_apart ? m.path_sky_in_clearcoats.address() : 0}});
     if (keeps_behind) {
       to.barrier();
       keep_behind(to, paths, from);
@@ -258,11 +264,11 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
   });
 }
 
-void FramePassesVulkan::reuse_coat_rays(const Band& around) {
+void FramePassesVulkan::reuse_coat_rays(const Band& around, const Buffer& sky) {
   reserve<vec4>(pixels_, "coats", memory_.coats);
   const bool filters = request_->settings.denoise;
   reserve<float>(filters ? pixels_ : 0, "distances of coats", memory_.coat_inverse_distances);
-  add("glossy", [=, this](Recorder& to) {
+  add("glossy", [=, this, &sky](Recorder& to) {
     const FrameMemory& m = memory_;
     const FrameSettings& settings = request_->settings;
     const CameraRecord camera = camera_record(request_->camera, settings.width, settings.height);
@@ -271,6 +277,7 @@ void FramePassesVulkan::reuse_coat_rays(const Band& around) {
                                           {m.coat_rays.address()},
                                           {m.coats.address()},
                                           {m.coat_inverse_distances.address()},
+                                          {sky.address()},
                                           camera.position_ws,
                                           camera.axes[2],
                                           camera.half_view / camera.half_size.y,
@@ -282,7 +289,7 @@ void FramePassesVulkan::reuse_coat_rays(const Band& around) {
                                           static_cast<uint>(settings.height),
                                           static_cast<uint>(settings.glossy_rows),
                                           sample_,
-                                          static_cast<uint>(settings.emissive_samples),
+                                          world_.scene().has_bright_sky() ? 1u : 0u,
                                           settings.denoise ? 1u : 0u,
                                           0u};
     to.run(kernels_.coat_reuse, arguments, pixels_);

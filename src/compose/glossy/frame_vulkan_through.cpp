@@ -113,6 +113,7 @@ void FramePassesVulkan::keep_behind(Recorder& to, std::uint32_t paths, const Pat
                                          {from.paths.address()},
                                          {from.pixels.address()},
                                          {m.path_diffuse.address()},
+                                         {m.path_sky.address()},
                                          {m.path_drawn.address()},
                                          {m.path_drawn_specular.address()},
                                          {m.path_drawn_squares.address()},
@@ -121,7 +122,9 @@ void FramePassesVulkan::keep_behind(Recorder& to, std::uint32_t paths, const Pat
                                          vec3(request_->camera.world_from_view[3]),
                                          first_traced_pixel(),
                                          paths,
-                                         draws_behind_glass()};
+                                         draws_behind_glass(),
+                                         world_.scene().has_bright_sky() ? 1u : 0u,
+                                         0u};
   to.run(kernels_.keep_behind, arguments, paths);
 }
 

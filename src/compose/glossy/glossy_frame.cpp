@@ -19,6 +19,23 @@ FieldQuery query_of(const Ray& ray, const Surface& met, const vec3& direction_ws
   return {met.position_ws, direction_ws, -ray.direction, distance(met.position_ws, ray.origin)};
 }
 
+/// Direct light, with the samples of the sky.
+vec3 direct_light(const ReflectedLight& light, std::size_t i) {
+  const vec3 sky = light.sky.empty() ? vec3(0.0f) : light.sky[i];
+  return light.diffuse[i] + light.specular[i] + sky;
+}
+
+/// Ends a path that left the scene, and adds the sky's light.
+void leave_scene(const SkyLevels& sky, const vec3& direction_ws, float spread, CoatPath& path,
+                 CoatRay& ray) {
+  if (path.pdf == kNoLightSampling) {
+    add_radiance(path, sky_radiance_in_cone(sky, direction_ws, spread), ray);
+  } else {
+    meet_sky(path, sky_seen(sky, direction_ws, spread), ray);
+  }
+  path.pdf = 0.0f;
+}
+
 }  // namespace
 
 void find_coat_shares(GBuffer& pixels) {
@@ -38,7 +55,7 @@ void find_coat_shares(GBuffer& pixels) {
 void Glossy::start(const GlossySettings& settings, int first_row, std::size_t pixels, uint salt) {
   first_row_ = first_row;
   salt_ = static_cast<uint>(settings.sample) ^ salt;
-  rays_.assign(pixels, {vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f)});
+  rays_.assign(pixels, {vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f), 0.0f});
   paths_.start(pixels);
   coat_distances_.assign(pixels, -1.0f);
 }
@@ -120,10 +137,8 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
         coat_distances_[i] = farther_seen(path, coat_distances_[i], hits[k].distance);
       }
       if (hits[k].missed()) {
-        const float spread = paths_.cones[i].spread;
-        add_radiance(path, sky_radiance_in_cone(sky_of(settings.world), rays[k].direction, spread),
-                     rays_[i]);
-        path.pdf = 0.0f;
+        leave_scene(sky_of(settings.world), rays[k].direction, paths_.cones[i].spread, path,
+                    rays_[i]);
         continue;
       }
       paths_.cones[i].width = width_at(paths_.cones[i], hits[k].distance);
@@ -135,7 +150,8 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
       met_.hit[i] = 1;
       met_.surfaces[i] = surface;
       meet_emitter(path, surface.emission,
-                   static_cast<uint>(settings.frame.reflected_emissive_samples), rays_[i]);
+                   static_cast<uint>(settings.frame.reflected_emissive_samples),
+                   static_cast<uint>(settings.frame.emissive_samples), rays_[i]);
       met_.coat_shares[i] = regularize_lobe(dot(surface.normal_ws, met_.to_viewer_ws[i]),
                                             settings.field != nullptr ? surface.gi_share : 0.0f,
                                             bounce, met_.surfaces[i].reflectance, path);
@@ -191,7 +207,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
       if (met_.hit[i] == 0) continue;
       const Surface& surface = met_.surfaces[i];
       CoatPath& path = paths_.paths[i];
-      add_radiance(path, direct_.diffuse[i] + direct_.specular[i], rays_[i]);
+      add_radiance(path, direct_light(direct_, i), rays_[i]);
       const RandomStream random = make_random_stream(
           first_index + static_cast<uint>(i), coat_salt(salt_, bounce), ~settings.frame.seed);
       const NextRay next =
@@ -234,7 +250,8 @@ std::uint64_t Glossy::reflect(const GlossySettings& settings, std::span<const Gl
 }
 
 std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sample, CoatKind kind,
-                           const GBuffer& pixels, GlossyMemory& memory, CoatLight& light) {
+                           const GBuffer& pixels, std::span<const vec3> sky, GlossyMemory& memory,
+                           CoatLight& light) {
   light.clear();
   if (!traces_coats(request)) return 0;
   const std::vector<float>& shares = pixels.coat_shares;
@@ -266,7 +283,11 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
       request.world, request.sources.field,
       drawing,       camera_record(request.camera, settings.width, settings.height),
       sample,        request.jitter()};
-  return traced + memory.coats.reflect(glossy, around, own, light);
+  traced += memory.coats.reflect(glossy, around, own, light);
+  for (std::size_t i = 0; i < sky.size(); ++i) {
+    if (light.light[i].w > 0.0f) light.light[i] += vec4(sky[i], 0.0f);
+  }
+  return traced;
 }
 
 void look_up_coats(const FrameRequest& request, const GBuffer& pixels, const CoatLight& by_rays,

@@ -103,22 +103,24 @@ enum class CoatKind : std::uint8_t { coat, clearcoat };
 void show_clearcoats(GBuffer& pixels);
 
 /// Computes the light that the coats of a band's pixels, or their clearcoats, reflect from rays.
-/// For clearcoats, `pixels` must come from show_clearcoats(). `light`: see Glossy::reflect; empty
-/// where no pixel reflects rays. Traces the primary rays of the rows above and below the band once
-/// more. Returns the number of rays traced.
+/// For clearcoats, `pixels` must come from show_clearcoats(). `sky`: what they reflect of samples
+/// of the sky, see ReflectedLight, which is added; empty where there is none. `light`: see
+/// Glossy::reflect; empty where no pixel reflects rays. Traces the primary rays of the rows above
+/// and below the band once more. Returns the number of rays traced.
 std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sample, CoatKind kind,
-                           const GBuffer& pixels, GlossyMemory& memory, CoatLight& light);
+                           const GBuffer& pixels, std::span<const glm::vec3> sky,
+                           GlossyMemory& memory, CoatLight& light);
 
 /// Whether the light of clearcoats from rays is filtered, at pixels with is_filtered_clearcoat().
 bool filters_clearcoats(const FrameRequest& request);
 
 /// Computes the light that the clearcoats of a band's pixels reflect, from rays and from the field,
-/// without the lights' direct light and without what is to be filtered. `light` is empty where no
-/// pixel has a clearcoat; otherwise `memory.clearcoats` is filled in. Returns the number of rays
-/// traced.
+/// without the lights' direct light and without what is to be filtered. `sky`: see reflect_band().
+/// `light` is empty where no pixel has a clearcoat; otherwise `memory.clearcoats` is filled in.
+/// Returns the number of rays traced.
 std::uint64_t reflect_clearcoats(const FrameRequest& request, const Band& band, int sample,
-                                 const GBuffer& pixels, GlossyMemory& memory,
-                                 std::vector<glm::vec3>& light);
+                                 const GBuffer& pixels, std::span<const glm::vec3> sky,
+                                 GlossyMemory& memory, std::vector<glm::vec3>& light);
 
 /// Computes the light transmitted through the surfaces of a band's pixels. Returns the number of
 /// rays traced.

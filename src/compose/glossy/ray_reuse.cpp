@@ -75,7 +75,6 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
   lay_out(settings, around, rays);
   const int width = settings.frame.width;
   const int first_row = around.front().first_row;
-  const auto samples = static_cast<uint>(settings.frame.emissive_samples);
   const GBuffer& pixels = band.pixels;
   reflected.light.assign(pixels.size(), vec4(0.0f));
   reflected.inverse_distances.assign(pixels.size(), 0.0f);
@@ -96,7 +95,6 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
           lobe_of(pixels, i),
           coat_under_layers(surface.reflectance, dot(surface.normal_ws, pixels.to_viewer_ws[i])),
           inverse_plane_tolerance(settings.camera, surface.position_ws),
-          samples,
           own,
           {},
           {},
@@ -108,7 +106,7 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
     }
     if (receivers.empty()) return;
     const std::vector<NeighbourRow> neighbours = rows_around(settings, y, first_row);
-    reuse_row({coats_, asked, y - first_row, 0, width, samples, neighbours}, sums);
+    reuse_row({coats_, asked, y - first_row, 0, width, neighbours}, sums);
     for (std::size_t k = 0; k < receivers.size(); ++k) {
       const std::size_t i = begin * width + places[k];
       reflected.light[i] = pixels.coat_shares[i] *

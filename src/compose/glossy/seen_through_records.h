@@ -41,11 +41,12 @@ struct StartThroughArguments {
 /// Stores the light of the first opaque surfaces behind glass apart, see Glossy::keep_behind.
 struct KeepBehindArguments {
   SceneArray scene;
-  LitPointArray points;  ///< One a path, as are the next seven arrays.
+  LitPointArray points;  ///< One a path, as are the next eight arrays.
   PixelSurfaceArray surfaces;
   CoatPathArray paths;
   UintArray pixels;
   Vec3Array diffuse;  ///< Light is added here.
+  Vec3Array sky;      ///< What coats reflect of it; read where `has_sky` is 1.
   Vec3Array drawn;    ///< Light of emitters; read where `draws` is above 0.
   Vec3Array drawn_specular;
   FloatArray drawn_squares;
@@ -55,6 +56,8 @@ struct KeepBehindArguments {
   uint first;  ///< First pixel of the band among the traced ones.
   uint count;  ///< Number of paths.
   uint draws;  ///< Samples of emitters a path.
+  uint has_sky;
+  uint padding;
 };
 
 /// Stores all transmitted light, see keep_through().

@@ -59,6 +59,10 @@ void Glossy::keep_behind(const GlossySettings& settings, const KeptBehind& kept)
       seen.coat_alphas[pixel] = alpha_behind(surface.reflectance, met_.coat_shares[i]);
       seen.coat_albedo[pixel] = coat_albedo_behind(path, surface.reflectance,
                                                    dot(surface.normal_ws, met_.to_viewer_ws[i]));
+      if (!direct_.sky.empty()) {
+        rays_[i].apart += path.throughput * direct_.sky[i];
+        direct_.sky[i] = vec3(0.0f);
+      }
       if (!has_emitters) continue;
       rays_[i].apart += path.throughput * direct_.emitter_specular[i];
       const FilteredEmitter emitter =

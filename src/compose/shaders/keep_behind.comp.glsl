@@ -35,6 +35,7 @@ void main() {
   if ((surface.flags & kSurfaceMissed) != 0u) return;
   CoatPath path = args.paths.at[k];
   if (!reaches_opaque_surface(path, surface.transmission)) {
+    if (args.has_sky != 0u) args.diffuse.at[k] += args.sky.at[k];
     if (args.draws > 0u) args.diffuse.at[k] += args.drawn.at[k] + args.drawn_specular.at[k];
     return;
   }
@@ -51,8 +52,9 @@ void main() {
     args.seen.at[0].coat_lobes.at[pixel] =
         lobe_guide(point.normal_ws, surface.to_viewer_ws, alpha, 0.0f);
   }
-  args.seen.at[0].coat_albedo.at[pixel] = coat_albedo_behind(
-      path, surface.reflectance, dot(point.normal_ws, surface.to_viewer_ws));
+  args.seen.at[0].coat_albedo.at[pixel] =
+      coat_albedo_behind(path, surface.reflectance, dot(point.normal_ws, surface.to_viewer_ws));
+  if (args.has_sky != 0u) args.coat_rays.at[i].apart += path.throughput * args.sky.at[k];
   if (args.draws == 0u) return;
   args.coat_rays.at[i].apart += path.throughput * args.drawn_specular.at[k];
   keep_emitters(k, pixel, point, surface.reflectance, path.throughput);

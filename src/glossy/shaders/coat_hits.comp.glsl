@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "glossy/glossy_records.h"
+#include "raytracing/shaders/sky.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
@@ -28,7 +29,13 @@ void main() {
         farther_seen(path, args.coat_distances.at[i], args.hits.at[k].distance);
   }
   if ((surface.flags & kSurfaceMissed) != 0u) {
-    add_radiance(path, surface.emission, ray);
+    if (path.pdf == kNoLightSampling) {
+      add_radiance(path, surface.emission, ray);
+    } else {
+      meet_sky(path,
+               sky_seen(args.scene.at[0].environment, -surface.to_viewer_ws, surface.cone.spread),
+               ray);
+    }
     args.coat_rays.at[i] = ray;
     return;
   }
@@ -36,7 +43,7 @@ void main() {
     path.stage = kStageBeyondCoat;
   }
   path.throughput *= volume_transmittance(surface.transmission, args.hits.at[k].distance);
-  meet_emitter(path, surface.emission, args.emitter_samples, ray);
+  meet_emitter(path, surface.emission, args.emitter_samples, args.pixel_emitter_samples, ray);
   args.coat_rays.at[i] = ray;
   float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
   float gi_share = args.has_field != 0u ? surface.gi_share : 0.0f;
@@ -45,7 +52,6 @@ void main() {
   args.paths.at[k] = path;
   args.surfaces.at[k] = surface;
   args.points.at[k].random_index = args.first_index + i;
-  args.queries.at[2u * k + 1u].normal_ws =
-      coats_direction(surface.reflectance, surface.coat_share, point.normal_ws,
-                      surface.to_viewer_ws);
+  args.queries.at[2u * k + 1u].normal_ws = coats_direction(surface.reflectance, surface.coat_share,
+                                                           point.normal_ws, surface.to_viewer_ws);
 }

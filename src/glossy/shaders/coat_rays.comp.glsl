@@ -12,7 +12,8 @@ layout(push_constant, scalar) uniform Push {
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
-  args.coat_rays.at[i] = CoatRay(vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f));
+  args.coat_rays.at[i] =
+      CoatRay(vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
   PixelSurfaceRecord surface = args.surfaces.at[i];
   uvec2 pixel = uvec2(i % args.width, args.first_row + i / args.width);
   if (!traces_coat(surface.reflectance, surface.coat_share, int(pixel.y), args.sample_index,
@@ -29,7 +30,7 @@ void main() {
   }
   args.coat_rays.at[i].direction_ws = drawn.direction_ws;
   args.coat_rays.at[i].pdf = drawn.pdf;
-  CoatPath path = CoatPath(vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kStageOwnCoat,
-                           kForksNowhere);
+  CoatPath path =
+      CoatPath(vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kStageOwnCoat, kForksNowhere);
   append_path(args.list, i, path, surface.cone, point, NextRay(drawn.direction_ws, 1.0f));
 }

@@ -52,15 +52,14 @@ void main() {
   camera.orthographic = args.orthographic;
   CoatReceiver at;
   at.lobe = fetch_lobe(args, pixel);
-  at.reflectance = coat_under_layers(surface.reflectance,
-                                     dot(at.lobe.normal_ws, at.lobe.to_viewer_ws));
+  at.reflectance =
+      coat_under_layers(surface.reflectance, dot(at.lobe.normal_ws, at.lobe.to_viewer_ws));
   at.inverse_tolerance = inverse_plane_tolerance(camera, at.lobe.position_ws);
-  at.emitter_samples = args.emitter_samples;
   at.own = fetch_ray(args, pixel);
   find_lobe(at);
-  args.light.at[k] =
-      surface.coat_share * reuse_rays(args, pixel, at, args.sample_index, args.rows);
+  vec4 light = surface.coat_share * reuse_rays(args, pixel, at, args.sample_index, args.rows);
+  if (args.has_sky != 0u && light.w > 0.0f) light += vec4(args.sky.at[k], 0.0f);
+  args.light.at[k] = light;
   if (args.finds_distances == 0u) return;
-  args.inverse_distances.at[k] =
-      seen_inverse_distance(args, pixel, args.sample_index, args.rows);
+  args.inverse_distances.at[k] = seen_inverse_distance(args, pixel, args.sample_index, args.rows);
 }

@@ -10,6 +10,20 @@ layout(push_constant, scalar) uniform Push {
   CollectArguments args;
 };
 
+/// The light of a slot that arrives.
+ReflectedPair arriving(uint at) {
+  if (args.has_glass == 0u && args.occluded.at[at] != 0u) {
+    return ReflectedPair(vec3(0.0f), vec3(0.0f));
+  }
+  ReflectedPair pair = args.pairs.at[at];
+  if (args.has_glass != 0u) {
+    vec3 share = args.through.at[at];
+    pair.diffuse *= share;
+    pair.specular *= share;
+  }
+  return pair;
+}
+
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
@@ -19,14 +33,7 @@ void main() {
   vec3 drawn_specular = vec3(0.0f);
   float squares = 0.0f;
   for (uint slot = 0u; slot < args.slots; ++slot) {
-    uint at = slot * args.count + i;
-    if (args.has_glass == 0u && args.occluded.at[at] != 0u) continue;
-    ReflectedPair pair = args.pairs.at[at];
-    if (args.has_glass != 0u) {
-      vec3 share = args.through.at[at];
-      pair.diffuse *= share;
-      pair.specular *= share;
-    }
+    ReflectedPair pair = arriving(slot * args.count + i);
     if (slot < args.exact_slots) {
       diffuse += pair.diffuse;
       specular += pair.specular;
@@ -37,6 +44,15 @@ void main() {
     drawn += pair.diffuse;
     drawn_specular += pair.specular;
     squares += level * level;
+  }
+  if (args.sky_slots != kNoSkySlot) {
+    ReflectedPair sky = arriving(args.slots * args.count + i);
+    if (args.sky_slots == kAddsSky) {
+      specular += sky.specular + sky.diffuse;
+    } else {
+      args.sky.at[args.first + i] = sky.specular;
+      args.sky_in_clearcoats.at[args.first + i] = sky.diffuse;
+    }
   }
   args.diffuse.at[args.first + i] = diffuse;
   args.specular.at[args.first + i] = specular;

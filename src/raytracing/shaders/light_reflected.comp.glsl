@@ -14,7 +14,7 @@ struct ReflectingReceiver {
   LitPointRecord point;
   Reflectance reflectance;
   Frame frame;
-  vec3 to_viewer;  ///< Unit, in the frame.
+  vec3 to_viewer;    ///< Unit, in the frame.
   vec2 coat_shares;  ///< Shares of coat and clearcoat; see sampled_reflection().
   uint samples;
 };
@@ -44,6 +44,9 @@ MediumRecord fetch_medium(LightDrawsArguments draws, uint medium) {
 }
 
 #include "scene/media/media.inl.h"
+
+#include "raytracing/shaders/sky.glsl"
+#include "raytracing/sky/sky_light.inl.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
@@ -77,6 +80,24 @@ void main() {
     }
     args.pairs.at[slot * args.count + i] = pair;
     args.shadow_rays.at[slot * args.count + i] = ray;
+    rays += ray.mask != 0u ? 1u : 0u;
+  }
+  if (args.sky_slots != 0u) {
+    RayRecord ray = no_ray();
+    ReflectedPair pair = ReflectedPair(vec3(0.0f), vec3(0.0f));
+    if (asks) {
+      SkyReflector coats =
+          SkyReflector(surface.reflectance, frame, receiver.to_viewer, point.geometric_normal_ws,
+                       CoatShares(surface.coat_share, surface.clearcoat_share));
+      SkyCandidate sky = sample_reflected_sky(args.scene.at[0].environment, coats, random);
+      float passed = transmittance(args, point.position_ws, sky.direction_ws, infinity());
+      pair = ReflectedPair(passed * sky.light.clearcoat, passed * sky.light.coat);
+      if (pair.diffuse + pair.specular != vec3(0.0f)) {
+        ray = shadow_ray(point, LightCandidate(sky.direction_ws, infinity(), vec3(1.0f), 0u));
+      }
+    }
+    args.pairs.at[slots * args.count + i] = pair;
+    args.shadow_rays.at[slots * args.count + i] = ray;
     rays += ray.mask != 0u ? 1u : 0u;
   }
   if (rays > 0u) atomicAdd(args.ray_count.at[0], rays);

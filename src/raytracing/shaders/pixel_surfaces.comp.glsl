@@ -25,6 +25,7 @@ void main() {
                                                 RayCone(0.0f, 0.0f), kSurfaceMissed, 0.0f, 0.0f,
                                                 0.0f);
   if (missed(hit)) {
+    pixel.cone = args.cones.at[i];
     pixel.emission = sky_radiance_in_cone(args.scene.at[0].environment, ray.direction_ws,
                                           args.cones.at[i].spread);
   } else {

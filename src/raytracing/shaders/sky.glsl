@@ -39,6 +39,28 @@ SkyMapLevel map_level(EnvironmentRecord sky, int level) {
   return map;
 }
 
-#include "scene/environment.inl.h"
+/// The levels without the bright part follow all levels of the map; the first is level 1.
+SkyMapLevel dim_level(EnvironmentRecord sky, int level) {
+  int levels = map_level_count(sky.map.height);
+  SkyMapLevel map = map_level(sky, level);
+  SkyMapLevel coarsest = map_level(sky, levels - 1);
+  map.first += coarsest.first + coarsest.width * coarsest.height - sky.map.width * sky.map.height;
+  return map;
+}
+
+float bright_limit(EnvironmentRecord sky) {
+  return sky.bright_limit;
+}
+float bright_total(EnvironmentRecord sky) {
+  return sky.bright_total;
+}
+uint bright_cell_count(EnvironmentRecord sky) {
+  return sky.bright_cell_count;
+}
+BrightSkyCell fetch_bright_cell(EnvironmentRecord sky, uint cell) {
+  return sky.bright_cells.at[cell];
+}
+
+#include "scene/sky/bright_sky.inl.h"
 
 #endif

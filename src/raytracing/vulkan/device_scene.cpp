@@ -8,7 +8,7 @@
 #include "scene/latitude_longitude.h"
 #include "scene/light_sampling.h"
 #include "scene/light_tree/light_tree.h"
-#include "scene/sky_levels.h"
+#include "scene/sky/sky_levels.h"
 #include "scene/texture.h"
 
 namespace lambent {
@@ -201,16 +201,18 @@ void DeviceScene::update_sky(const Environment& environment) {
   std::vector<glm::vec3> texels;
   const SkyLevels sky(environment);
   const int levels = map.empty() ? 0 : map_level_count(map.height);
-  for (int k = 0; k < levels; ++k) {
-    const Image& level = sky.level(k);
-    for (int y = 0; y < level.height; ++y) {
-      for (int x = 0; x < level.width; ++x) {
-        const float* p = level.at(x, y);
-        texels.emplace_back(p[0], p[1], p[2]);
-      }
+  const auto append = [&](const Image& level) {
+    for (std::size_t i = 0; i < level.pixels.size(); i += 3) {
+      texels.emplace_back(level.pixels[i], level.pixels[i + 1], level.pixels[i + 2]);
     }
-  }
+  };
+  for (int k = 0; k < levels; ++k) append(sky.level(k));
+  for (int k = 1; k < levels && sky.has_bright_part(); ++k) append(sky.dim_level(k));
   sky_map_ = vulkan::upload(device_, texels, "sky");
+  bright_sky_ = vulkan::upload(device_, sky.bright_cells(), "bright part of the sky");
+  bright_limit_ = sky.bright_limit();
+  bright_total_ = sky.bright_total();
+  bright_cells_ = static_cast<std::uint32_t>(sky.bright_cells().size());
   sky_data_ = now;
 }
 
@@ -232,13 +234,17 @@ void DeviceScene::update_record(const Environment& environment) {
   record.environment.rotation = environment.rotation;
   record.environment.map.width = sky_data_.width;
   record.environment.map.height = sky_data_.height;
+  record.environment.bright_cells.address = bright_sky_.address();
+  record.environment.bright_limit = bright_limit_;
+  record.environment.bright_total = bright_total_;
+  record.environment.bright_cell_count = bright_cells_;
   record_.set(device_, {record}, "scene");
 }
 
 std::size_t DeviceScene::bytes() const {
-  std::size_t sum = sky_map_.bytes() + materials_.bytes() + meshes_.bytes() + instances_.bytes() +
-                    lights_.bytes() + emitters_.bytes() + asked_.bytes() + light_tree_.bytes() +
-                    light_groups_.bytes() + record_.bytes();
+  std::size_t sum = sky_map_.bytes() + bright_sky_.bytes() + materials_.bytes() + meshes_.bytes() +
+                    instances_.bytes() + lights_.bytes() + emitters_.bytes() + asked_.bytes() +
+                    light_tree_.bytes() + light_groups_.bytes() + record_.bytes();
   for (const MeshData& data : mesh_data_) sum += data.bytes;
   for (const TextureData& data : texture_data_) sum += data.texture.bytes();
   return sum;

@@ -77,6 +77,8 @@ class DeviceScene {
   std::uint32_t light_tree_size() const { return tree_size_; }
   bool has_light_tree() const { return tree_size_ > 0; }
   bool has_emitters() const { return emitter_count_ > 0; }
+  /// Whether coats sample part of the sky as a light; see bright_sky.h.
+  bool has_bright_sky() const { return bright_cells_ > 0; }
   const vulkan::Device& device() const { return device_; }
   /// Memory held on the device [bytes].
   std::size_t bytes() const;
@@ -115,7 +117,9 @@ class DeviceScene {
   std::vector<MeshRecord> mesh_records_;
   std::uint32_t enumerated_lights_ = 0, emitter_count_ = 0, tree_size_ = 0;
   SkyData sky_data_;
-  vulkan::Buffer sky_map_;
+  vulkan::Buffer sky_map_, bright_sky_;
+  float bright_limit_ = 0.0f, bright_total_ = 0.0f;
+  std::uint32_t bright_cells_ = 0;
   DeviceTable<MaterialRecord> materials_;
   DeviceTable<MeshRecord> meshes_;
   DeviceTable<InstanceRecord> instances_;

@@ -39,12 +39,14 @@ HitShading::HitShading(const vulkan::Device& device)
 
 template <class Work>
 void HitShading::for_each_chunk(const DeviceScene& scene, std::uint32_t count,
-                                const ShadeHitsSettings& settings, Work work) {
+                                const ShadeHitsSettings& settings, bool samples_sky, Work work) {
   Chunk chunk{};
   const bool draws = settings.emitters_alone ? scene.has_emitters() : scene.has_light_tree();
   chunk.samples = draws ? static_cast<std::uint32_t>(settings.emissive_samples) : 0;
   chunk.slots = (settings.emitters_alone ? 0 : scene.enumerated_lights()) + chunk.samples;
-  const std::uint32_t most = std::clamp(kMaxSlots / std::max(chunk.slots, 1u), 1u, kMaxInvocations);
+  chunk.sky_slots = samples_sky && scene.has_bright_sky() ? 1 : 0;
+  const std::uint32_t most =
+      std::clamp(kMaxSlots / std::max(chunk.all_slots(), 1u), 1u, kMaxInvocations);
   chunk.count = std::min(most, count);
   reserve(chunk);
   for (; chunk.first < count; chunk.first += most) {
@@ -63,7 +65,7 @@ void HitShading::grow(std::size_t bytes, const char* name, vulkan::Buffer& buffe
 }
 
 void HitShading::reserve(const Chunk& chunk) {
-  const std::size_t slots = std::size_t{chunk.count} * chunk.slots;
+  const std::size_t slots = std::size_t{chunk.count} * chunk.all_slots();
   grow(slots * sizeof(RayRecord), "shadow rays", shadow_ray_memory_);
   grow(slots * sizeof(ReflectedPair), "unoccluded light of shadow rays", unoccluded_memory_);
   grow(slots * sizeof(vec3), "what arrives of shadow rays", occlusion_memory_);
@@ -82,6 +84,7 @@ LightDrawsArguments HitShading::draws(const DeviceStage& stage, LitPointArray po
   arguments.salt = settings.salt;
   arguments.seed = settings.seed;
   arguments.candidates = settings.candidates;
+  arguments.sky_slots = chunk.sky_slots;
   arguments.media = stage.media.records;
   arguments.media_count = stage.media.count;
   arguments.emitters_alone = settings.emitters_alone ? 1 : 0;
@@ -101,7 +104,7 @@ void HitShading::trace_shadows(vulkan::Recorder& recorder, const DeviceStage& st
   recorder.barrier();
   RayBatch batch;
   batch.rays.address = shadow_ray_memory_.address();
-  batch.count = chunk.count * chunk.slots;
+  batch.count = chunk.count * chunk.all_slots();
   if (stage.tracer.has_glass()) {
     stage.tracer.transmittances(recorder, batch, {}, {occlusion_memory_.address()});
   } else {
@@ -160,7 +163,7 @@ void HitShading::direct_irradiance(vulkan::Recorder& recorder, const DeviceStage
                                    LitPointArray points, std::uint32_t count,
                                    const ShadeHitsSettings& settings, Vec3Array irradiance) {
   recorder.bind_textures(stage.scene.textures());
-  for_each_chunk(stage.scene, count, settings, [&](const Chunk& chunk) {
+  for_each_chunk(stage.scene, count, settings, false, [&](const Chunk& chunk) {
     LightDrawsArguments arguments = draws(stage, points, chunk, settings);
     arguments.unoccluded_irradiance.address = unoccluded_memory_.address();
     recorder.run(kernels_.light_irradiance, arguments, chunk.count);
@@ -200,7 +203,7 @@ void HitShading::reflected_light(vulkan::Recorder& recorder, const DeviceStage& 
                                  const ShadeHitsSettings& settings,
                                  const DeviceReflectedLight& out) {
   recorder.bind_textures(stage.scene.textures());
-  for_each_chunk(stage.scene, count, settings, [&](const Chunk& chunk) {
+  for_each_chunk(stage.scene, count, settings, true, [&](const Chunk& chunk) {
     LightDrawsArguments arguments = draws(stage, pixels.points, chunk, settings);
     arguments.pairs.address = unoccluded_memory_.address();
     arguments.surfaces = pixels.surfaces;
@@ -210,6 +213,11 @@ void HitShading::reflected_light(vulkan::Recorder& recorder, const DeviceStage& 
     collect.pairs.address = unoccluded_memory_.address();
     collect.diffuse = out.diffuse;
     collect.specular = out.specular;
+    if (chunk.sky_slots > 0) {
+      collect.sky_slots = out.sky.address != 0 ? kStoresSky : kAddsSky;
+      collect.sky = out.sky;
+      collect.sky_in_clearcoats = out.sky_in_clearcoats;
+    }
     if (out.drawn.address != 0) {
       collect.exact_slots = chunk.slots - chunk.samples;
       collect.drawn = out.drawn;

@@ -74,6 +74,9 @@ struct DeviceReflectedLight {
   Vec3Array drawn = {};
   FloatArray drawn_squares = {};
   Vec3Array drawn_specular = {};
+  /// See ReflectedLight. Addresses 0: the sky's light is part of `specular`.
+  Vec3Array sky = {};
+  Vec3Array sky_in_clearcoats = {};
 };
 
 /// The kernels, owned by the device (Device::kept).
@@ -122,10 +125,12 @@ class HitShading {
   struct Chunk {
     std::uint32_t first, count;
     std::uint32_t samples, slots;  // for each point: of the light tree, and of all lights
+    std::uint32_t sky_slots;       // further ones for the sky: 0 or 1
+    std::uint32_t all_slots() const { return slots + sky_slots; }
   };
   template <class Work>
   void for_each_chunk(const DeviceScene& scene, std::uint32_t count,
-                      const ShadeHitsSettings& settings, Work work);
+                      const ShadeHitsSettings& settings, bool samples_sky, Work work);
   void reserve(const Chunk& chunk);
   void grow(std::size_t bytes, const char* name, vulkan::Buffer& buffer);
   LightDrawsArguments draws(const DeviceStage& stage, LitPointArray points, const Chunk& chunk,

@@ -7,6 +7,7 @@
 #include "scene/emissive_sample.h"
 #include "scene/light_tree/light_tree_math.h"
 #include "scene/punctual_light.h"
+#include "scene/sky/bright_sky.h"
 
 LAMBENT_BEGIN
 
@@ -120,7 +121,7 @@ LAMBENT_DEVICE_ARRAY(LightTreeArray, LightTreeNode, 4)
 
 /// A latitude-longitude map of radiance.
 struct EnvironmentMapRecord {
-  Vec3Array texels;  ///< Rows from the top.
+  Vec3Array texels;  ///< Rows from the top; coarser levels; those of the map without bright part.
   int width;         ///< [texels]; 0: there is none.
   int height;        ///< [texels]
 };
@@ -128,8 +129,13 @@ struct EnvironmentMapRecord {
 /// See Environment in scene.h.
 struct EnvironmentRecord {
   EnvironmentMapRecord map;
-  vec3 radiance;   ///< [W/(m^2 sr)]; multiplies the map where there is one.
-  float rotation;  ///< Rotation of the map about +Y [rad].
+  BrightSkyCellArray bright_cells;
+  vec3 radiance;       ///< [W/(m^2 sr)]; multiplies the map where there is one.
+  float rotation;      ///< Rotation of the map about +Y [rad].
+  float bright_limit;  ///< See SkyLevels, also for the next.
+  float bright_total;
+  uint bright_cell_count;  ///< 0: the map has no bright part, nor levels without it.
+  uint padding;
 };
 
 /// A scene.

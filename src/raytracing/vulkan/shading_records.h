@@ -81,7 +81,9 @@ struct PixelSurfacesArguments {
 };
 
 /// Draws of direct light, in slots: slot s of point i is at s * count + i. A point has one slot for
-/// each light that all points sample, then one for each sample of the light tree.
+/// each light that all points sample, then one for each sample of the light tree, then one for the
+/// bright part of the sky if `sky_slots` is 1. Of that slot's pairs, `specular` is what the coat
+/// reflects, and `diffuse` what the clearcoat does.
 struct LightDrawsArguments {
   SceneArray scene;
   LitPointArray points;
@@ -99,7 +101,14 @@ struct LightDrawsArguments {
   uint media_count;
   uint emitters_alone;  ///< 1: leaves out directional, point and spot lights.
   uint candidates;      ///< See candidates_per_sample.
+  uint sky_slots;
+  uint padding;
 };
+
+// CollectArguments::sky_slots: whether there is a slot for the sky, and where its light goes.
+const uint kNoSkySlot = 0u;
+const uint kStoresSky = 1u;  ///< Into `sky` and `sky_in_clearcoats`.
+const uint kAddsSky = 2u;    ///< Into `specular`.
 
 /// Sums up the light that arrives, slot after slot.
 struct CollectArguments {
@@ -117,12 +126,14 @@ struct CollectArguments {
   FloatArray drawn_squares;
   Vec3Array drawn_specular;    ///< Specular light of those slots.
   PixelSurfaceArray surfaces;  ///< Read where there are such slots.
+  Vec3Array sky;               ///< See ReflectedLight; written where sky_slots is kStoresSky.
+  Vec3Array sky_in_clearcoats;
   uint first;
   uint count;
-  uint slots;
+  uint slots;        ///< Without that of the sky.
   uint exact_slots;  ///< Number of first slots, whose light goes into `diffuse` and `specular`.
   uint has_glass;
-  uint padding;
+  uint sky_slots;  ///< kNoSkySlot, kStoresSky or kAddsSky.
 };
 
 LAMBENT_END
