@@ -14,7 +14,7 @@
 #include "support/field_scenes.h"
 #include "support/floor_under_a_pane.h"
 
-namespace lambent {
+namespace lambent::glass_furnace_test {
 namespace {
 
 // The project's bar for furnaces.
@@ -200,4 +200,4 @@ TEST(GlassPane, CoatsHaveAllOfALampBehindItWhateverTheNumbersOfSamples) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::glass_furnace_test

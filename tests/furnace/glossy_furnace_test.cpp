@@ -11,7 +11,7 @@
 #include "support/field_scenes.h"
 #include "support/furnace_ball.h"
 
-namespace lambent {
+namespace lambent::glossy_furnace_test {
 namespace {
 
 constexpr int kSide = 64;  // of the picture [pixels]
@@ -129,4 +129,4 @@ INSTANTIATE_TEST_SUITE_P(Cases, GlossyFurnace, testing::ValuesIn(cases()), [](co
 });
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::glossy_furnace_test

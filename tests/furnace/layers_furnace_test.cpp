@@ -13,7 +13,7 @@
 #include "support/furnace_ball.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::layers_furnace_test {
 namespace {
 
 constexpr int kSide = 64;  // of the picture [pixels]
@@ -218,4 +218,4 @@ TEST(CoatedPanel, SendsWhatIsSeenOfItAndLessThanABareOne) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::layers_furnace_test

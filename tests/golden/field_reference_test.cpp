@@ -15,7 +15,7 @@
 #include "shared/constants.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::field_reference_test {
 namespace {
 
 /// A view whose irradiance the reference knows.
@@ -142,4 +142,4 @@ INSTANTIATE_TEST_SUITE_P(Specs, FieldAgainstReference, testing::ValuesIn(kSpecs)
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::field_reference_test

@@ -11,7 +11,7 @@
 #include "scenes/parts.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::fog_reference_test {
 namespace {
 
 // Of the layer of fog, whose light is scattered once in frames and any number of times in the
@@ -92,4 +92,4 @@ INSTANTIATE_TEST_SUITE_P(Kinds, FogShaft,
                                          Kind{0.03f, 0.2f, 1.0f}));
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::fog_reference_test

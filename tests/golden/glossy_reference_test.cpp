@@ -14,7 +14,7 @@
 #include "scenes/parts.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::glossy_reference_test {
 namespace {
 
 /// A room, grey but for a red wall behind the camera, lit by a lamp; light also comes from bounces.
@@ -199,4 +199,4 @@ TEST(Reflections, AreSmootherWithMoreSamplesOfWhatEmits) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::glossy_reference_test

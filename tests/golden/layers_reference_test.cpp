@@ -16,7 +16,7 @@
 #include "support/field_scenes.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::layers_reference_test {
 namespace {
 
 /// A texture of ribs along v, as a normal map has them.
@@ -135,4 +135,4 @@ TEST(Layers, LookAsInTheReference) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::layers_reference_test

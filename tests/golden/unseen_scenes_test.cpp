@@ -14,7 +14,7 @@
 #include "support/field_scenes.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::unseen_scenes_test {
 namespace {
 
 constexpr int kWidth = 96, kHeight = 54, kBlock = 6, kSamples = 256, kUpdates = 8;
@@ -125,4 +125,4 @@ TEST(UnseenRoom, WithAPanelSeenFromBehindIsLitAsTheReferenceLightsIt) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::unseen_scenes_test

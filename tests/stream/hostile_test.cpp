@@ -12,7 +12,7 @@
 #include "support/protocol_messages.h"
 #include "support/served_scene.h"
 
-namespace lambent::stream {
+namespace lambent::stream::hostile_test {
 namespace {
 
 using test::http_get;
@@ -275,4 +275,4 @@ TEST(Http, RefusesWhatIsNotForIt) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::hostile_test

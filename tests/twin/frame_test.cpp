@@ -15,7 +15,7 @@
 #include "support/lit_box.h"
 #include "support/vulkan_device.h"
 
-namespace lambent {
+namespace lambent::frame_test {
 namespace {
 
 // The bar for pictures. Both sides draw the same random numbers; where a ray grazes an edge
@@ -392,4 +392,4 @@ TEST_F(Frame, WithMergedMapsIsAlike) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::frame_test

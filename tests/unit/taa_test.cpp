@@ -12,7 +12,7 @@
 #include "support/hand_made.h"
 #include "temporal/taa.h"
 
-namespace lambent {
+namespace lambent::taa_test {
 namespace {
 
 constexpr int kWidth = 64, kHeight = 48;
@@ -377,4 +377,4 @@ TEST(TaaSequence, HoldsTheHistoryLessTheLongerNothingMoves) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::taa_test
