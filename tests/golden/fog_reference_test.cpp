@@ -74,7 +74,9 @@ TEST_P(FogShaft, IsThatOfTheReference) {
   ReferenceSettings truth;
   truth.width = settings.width;
   truth.height = settings.height;
-  truth.samples = 256;
+  // By these the means differ from those by half as many by 0.7 %: noise is a quarter of the
+  // tolerance
+  truth.samples = 128;
   const ReferenceResult reference = render_reference(stage.world, camera, truth);
   const Expected<Metrics> metrics =
       compare_images(*frame.image.find("fog"), *reference.image.find("fog"),
