@@ -11,7 +11,7 @@
 
 #include "support/program.h"
 
-namespace lambent {
+namespace lambent::backend_test {
 namespace {
 
 using test::ProgramResult;
@@ -108,4 +108,4 @@ TEST_F(VulkanBackend, PaintsWhatTheProcessorPaints) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::backend_test

@@ -18,7 +18,7 @@
 #include "support/program.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::bake_ranks_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -222,4 +222,4 @@ TEST_F(BakeWithCheckpoints, RefusesALauncherWithoutMpi) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::bake_ranks_test

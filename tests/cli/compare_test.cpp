@@ -8,7 +8,7 @@
 #include "support/program.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::compare_test {
 namespace {
 
 using test::run_program;
@@ -107,4 +107,4 @@ TEST_F(Compare, BadInputIsStatus2WithAMessageAndNoOutput) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::compare_test

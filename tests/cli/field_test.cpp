@@ -13,7 +13,7 @@
 #include "support/program.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::field_test {
 namespace {
 
 using test::ProgramResult;
@@ -179,4 +179,4 @@ TEST_F(FieldFiles, ProbesShowInPictures) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::field_test

@@ -17,7 +17,7 @@
 #include "support/program.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::file_safety_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -210,4 +210,4 @@ TEST_F(FileSafety, AnInterruptAtAnyMomentLeavesTheOldFileOrTheNewOne) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::file_safety_test

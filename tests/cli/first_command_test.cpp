@@ -12,7 +12,7 @@
 #include "support/program.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::first_command_test {
 namespace {
 
 using test::ProgramResult;
@@ -221,4 +221,4 @@ TEST_F(FirstCommand, KnowsUsualSizesByName) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::first_command_test

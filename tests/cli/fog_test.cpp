@@ -11,7 +11,7 @@
 #include "support/program.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::fog_test {
 namespace {
 
 using test::run_program;
@@ -92,4 +92,4 @@ TEST_F(FogOption, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::fog_test

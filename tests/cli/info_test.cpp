@@ -9,10 +9,11 @@
 #include "support/program.h"
 #include "support/temporary_directory.h"
 
+namespace lambent::info_test {
 namespace {
 
-using lambent::test::ProgramResult;
-using lambent::test::run_program;
+using test::ProgramResult;
+using test::run_program;
 using testing::HasSubstr;
 
 // A triangle, a spot light and a camera; its mesh is named with a terminal escape.
@@ -93,3 +94,4 @@ TEST_F(Info, BadInputIsStatusTwoAndNamesFileAndCause) {
 }
 
 }  // namespace
+}  // namespace lambent::info_test

@@ -16,7 +16,7 @@
 #include "support/program.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::large_work_test {
 namespace {
 
 using test::ProgramResult;
@@ -134,4 +134,4 @@ TEST_F(LargeWork, WhatIsSaidToFitDoes) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::large_work_test

@@ -8,10 +8,11 @@
 #include "support/program.h"
 #include "support/temporary_directory.h"
 
+namespace lambent::make_scene_test {
 namespace {
 
-using lambent::test::ProgramResult;
-using lambent::test::run_program;
+using test::ProgramResult;
+using test::run_program;
 using testing::HasSubstr;
 
 class MakeScene : public testing::Test {
@@ -69,3 +70,4 @@ TEST_F(MakeScene, RequiresAnOutputThatIsNamedAsWhatItIs) {
 }
 
 }  // namespace
+}  // namespace lambent::make_scene_test

@@ -7,7 +7,7 @@
 #include "lambent/image.h"
 #include "support/program.h"
 
-namespace lambent {
+namespace lambent::picture_test {
 namespace {
 
 using lambent::test::run_program;
@@ -55,4 +55,4 @@ TEST(Picture, RejectsAnExposureThatIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::picture_test

@@ -9,10 +9,11 @@
 #include "support/program.h"
 #include "support/temporary_directory.h"
 
+namespace lambent::prepare_test {
 namespace {
 
-using lambent::test::ProgramResult;
-using lambent::test::run_program;
+using test::ProgramResult;
+using test::run_program;
 using testing::HasSubstr;
 
 class Prepare : public testing::Test {
@@ -52,3 +53,4 @@ TEST_F(Prepare, WritesNothingOfWhatIsNotThere) {
 }
 
 }  // namespace
+}  // namespace lambent::prepare_test

@@ -10,7 +10,7 @@
 #include "support/program.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::quality_test {
 namespace {
 
 using test::run_program;
@@ -100,4 +100,4 @@ TEST_F(QualityOption, RefusesWhatDoesNotGoTogether) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::quality_test

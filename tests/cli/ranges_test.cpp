@@ -14,7 +14,7 @@
 #include "support/program.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::ranges_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -141,4 +141,4 @@ TEST_F(Ranges, MissingTexturesAreAWarning) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::ranges_test

@@ -8,7 +8,7 @@
 #include "support/program.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::render_rsm_test {
 namespace {
 
 using test::ProgramResult;
@@ -147,4 +147,4 @@ TEST_F(RenderRsm, RefusesWhatMakesNoSenseAndSaysWhy) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::render_rsm_test

@@ -19,7 +19,7 @@
 #include "support/program.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::render_sequence_test {
 namespace {
 
 using test::ProgramResult;
@@ -212,4 +212,4 @@ TEST_F(RenderSequence, IsAntialiasedOverTimeUnlessThatIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::render_sequence_test

@@ -14,7 +14,7 @@
 #include "support/program.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::render_test {
 namespace {
 
 using test::ProgramResult;
@@ -283,4 +283,4 @@ TEST_F(Render, AFailureLeavesTheOldPictureAlone) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::render_test

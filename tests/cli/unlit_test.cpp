@@ -9,7 +9,7 @@
 #include "support/temporary_directory.h"
 #include "support/unlit_scene.h"
 
-namespace lambent {
+namespace lambent::unlit_test {
 namespace {
 
 const std::string kQuick = " --size 32x32 --probes 4x4x4 --rays 32 --updates 2 --samples 4 ";
@@ -44,4 +44,4 @@ TEST(UnlitSurfaces, ShowTheirColourInAnyLightAndByEachMethod) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::unlit_test

@@ -12,7 +12,7 @@
 #include "support/program.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::words_test {
 namespace {
 
 using test::ProgramResult;
@@ -268,4 +268,4 @@ TEST(StandardOutput, ThatIsFullIsAFailure) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::words_test

@@ -11,7 +11,7 @@
 #include "shared/constants.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::field_furnace_test {
 namespace {
 
 using test::look_up;
@@ -268,4 +268,4 @@ TEST(FieldClosedForm, CubeLitFromItsCentreMatchesSolvedRadiosity) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::field_furnace_test

@@ -16,7 +16,7 @@
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::fog_furnace_test {
 namespace {
 
 using test::Stage;
@@ -359,4 +359,4 @@ TEST(Fog, RefusesSettingsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::fog_furnace_test

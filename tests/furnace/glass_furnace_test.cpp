@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,13 +15,22 @@
 #include "support/field_scenes.h"
 #include "support/floor_under_a_pane.h"
 
-namespace lambent {
+namespace lambent::glass_furnace_test {
 namespace {
 
 // The project's bar for furnaces.
 constexpr double kFurnaceTolerance = 0.005;
 // The bar for light behind a pane.
 constexpr double kPaneTolerance = 0.02;
+
+// Of the field, which has all bounces after one: more are less noise.
+constexpr int kFurnaceUpdates = 2;
+constexpr int kPaneUpdates = 4;
+
+// Samples a pixel of the reference. A furnace's mean is within 0.1 % of that by four times as many,
+// that of light behind a pane within 0.5 %.
+constexpr int kFurnaceSamples = 64;
+constexpr int kPaneSamples = 256;
 
 Material glass(float roughness, bool bounds_volume) {
   Material material;
@@ -116,10 +126,12 @@ LayeredImage render_reference_of(const test::Stage& stage, int samples) {
 /// through glass.
 void expect_unseen(Scene scene, double least) {
   const test::Stage stage(std::move(scene));
-  const LayeredImage image = render(stage, 16, 4);
+  const LayeredImage image = render(stage, 16, kFurnaceUpdates);
+  const LayeredImage reference = render_reference_of(stage, kFurnaceSamples);
+  std::printf("frame %.4f, reference %.4f\n", mean_of(image, ""), mean_of(reference, ""));
   EXPECT_NEAR(mean_of(image, ""), 1.0, kFurnaceTolerance);
   EXPECT_GT(mean_of(image, "transmission"), least);
-  EXPECT_NEAR(mean_of(render_reference_of(stage, 256), ""), 1.0, kFurnaceTolerance);
+  EXPECT_NEAR(mean_of(reference, ""), 1.0, kFurnaceTolerance);
 }
 
 TEST(GlassFurnace, APaneTakesNothing) {
@@ -133,8 +145,10 @@ TEST(GlassFurnace, ARoughPaneTakesWhatTheReferenceSays) {
   Scene scene = furnace();
   add_pane(scene, glass(0.3f, false));
   const test::Stage stage(std::move(scene));
-  EXPECT_NEAR(mean_of(render(stage, 16, 4), ""), mean_of(render_reference_of(stage, 256), ""),
-              kFurnaceTolerance);
+  const double found = mean_of(render(stage, 16, kFurnaceUpdates), "");
+  const double expected = mean_of(render_reference_of(stage, kFurnaceSamples), "");
+  std::printf("frame %.4f, reference %.4f\n", found, expected);
+  EXPECT_NEAR(found, expected, kFurnaceTolerance);
 }
 
 TEST(GlassFurnace, ABallTakesNothing) {
@@ -152,14 +166,15 @@ TEST(GlassPane, LetsAsMuchLightPassAsTheReferenceSays) {
   scene.cameras.clear();
   scenes::add_camera(scene, "behind", {0.1f, 1.4f, 1.3f}, {1.9f, 0.9f, -0.9f}, 0.9f, 1.0f);
   const test::Stage stage(std::move(scene));
-  const LayeredImage found = render(stage, 16, 8);
-  const LayeredImage expected = render_reference_of(stage, 1024);
+  const LayeredImage found = render(stage, 16, kPaneUpdates);
+  const LayeredImage expected = render_reference_of(stage, kPaneSamples);
   for (const char* layer : {"direct", "irradiance", "indirect"}) {
     for (int channel = 0; channel < 3; ++channel) {
       const double reference = mean_of(expected, layer, channel);
+      const double ratio = mean_of(found, layer, channel) / reference;
+      std::printf("%s %d: ratio %.4f\n", layer, channel, ratio);
       EXPECT_GT(reference, 1e-3) << layer;
-      EXPECT_NEAR(mean_of(found, layer, channel) / reference, 1.0, kPaneTolerance)
-          << layer << ' ' << channel;
+      EXPECT_NEAR(ratio, 1.0, kPaneTolerance) << layer << ' ' << channel;
     }
   }
 }
@@ -170,13 +185,14 @@ TEST(GlassPane, ShowsWhatIsBehindIt) {
   pane.base_color = glm::vec4(0.5f, 0.9f, 0.7f, 1.0f);
   add_pane(scene, pane);
   const test::Stage stage(std::move(scene));
-  const LayeredImage found = render(stage, 16, 8);
-  const LayeredImage expected = render_reference_of(stage, 1024);
+  const LayeredImage found = render(stage, 16, kPaneUpdates);
+  const LayeredImage expected = render_reference_of(stage, kPaneSamples);
   for (int channel = 0; channel < 3; ++channel) {
     const double reference = mean_of(expected, "transmission", channel);
+    const double ratio = mean_of(found, "transmission", channel) / reference;
+    std::printf("channel %d: ratio %.4f\n", channel, ratio);
     EXPECT_GT(reference, 1e-3);
-    EXPECT_NEAR(mean_of(found, "transmission", channel) / reference, 1.0, kPaneTolerance)
-        << channel;
+    EXPECT_NEAR(ratio, 1.0, kPaneTolerance) << channel;
   }
 }
 
@@ -184,7 +200,7 @@ TEST(GlassPane, ShowsWhatIsBehindIt) {
 // how many samples the floor takes, and not by how many the surfaces take that its rays meet.
 TEST(GlassPane, CoatsHaveAllOfALampBehindItWhateverTheNumbersOfSamples) {
   const test::Stage stage(test::floor_under_a_pane());
-  const double expected = mean_of(render_reference_of(stage, 1024), "");
+  const double expected = mean_of(render_reference_of(stage, kPaneSamples), "");
   ASSERT_GT(expected, 0.05);
   const IrradianceField field = test::make_field(stage, test::exact_formats(), 4);
   FrameSettings frame;
@@ -195,9 +211,11 @@ TEST(GlassPane, CoatsHaveAllOfALampBehindItWhateverTheNumbersOfSamples) {
     frame.reflected_emissive_samples = reflected;
     const LayeredImage image =
         Renderer(stage.world, {.field = &field}).render(stage.scene.cameras[0], frame)->image;
-    EXPECT_NEAR(mean_of(image, "") / expected, 1.0, kPaneTolerance) << own << ", " << reflected;
+    const double ratio = mean_of(image, "") / expected;
+    std::printf("%d and %d samples: ratio %.4f\n", own, reflected, ratio);
+    EXPECT_NEAR(ratio, 1.0, kPaneTolerance) << own << ", " << reflected;
   }
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::glass_furnace_test

@@ -13,7 +13,7 @@
 #include "support/furnace_ball.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::layers_furnace_test {
 namespace {
 
 constexpr int kSide = 64;  // of the picture [pixels]
@@ -23,6 +23,10 @@ constexpr int kSide = 64;  // of the picture [pixels]
 constexpr int kSamples = 16;
 constexpr int kNarrowSamples = 768;
 constexpr float kWidestNarrowRoughness = 0.5f;
+
+// Of the reference, a pixel. Its means are within 0.1 % of what is expected by these, but for one
+// at 0.3 %.
+constexpr int kReferenceSamples = 64;
 
 // The project's bar for energy.
 constexpr double kTolerance = 0.005;
@@ -58,7 +62,7 @@ int samples_of(const Case& c, bool sky) {
 
 /// Share of light from everywhere that a surface reflects; none comes from below its triangle.
 double reflected_share(const Surface& surface, const vec3& to_viewer_ws, uint point) {
-  constexpr uint kDraws = 128;
+  constexpr uint kDraws = 32;  // by 26,000 points of the ball: a standard error below 0.1 %
   const Frame frame = make_frame(surface.normal_ws);
   const vec3 to_viewer = to_local(frame, to_viewer_ws);
   RandomStream random = make_random_stream(point, 0u, 1u);
@@ -96,7 +100,7 @@ TEST_P(LayersFurnace, ReflectsAllItsLobes) {
 
   ReferenceSettings by;
   by.width = by.height = kSide;
-  by.samples = 256;
+  by.samples = kReferenceSamples;
   const double reference = reflected_mean(render_reference(stage.world, camera, by).image);
   EXPECT_NEAR(reference / expected, 1.0, kTolerance);
 
@@ -218,4 +222,4 @@ TEST(CoatedPanel, SendsWhatIsSeenOfItAndLessThanABareOne) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::layers_furnace_test

@@ -9,7 +9,7 @@
 #include "shared/constants.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::reference_closed_form_test {
 namespace {
 
 using test::add;
@@ -257,4 +257,4 @@ TEST(ReferenceClosedForm, CubeLitFromItsCentreMatchesSolvedRadiosity) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::reference_closed_form_test

@@ -14,7 +14,7 @@
 #include "support/hand_made.h"
 #include "support/panels.h"
 
-namespace lambent {
+namespace lambent::reference_estimator_test {
 namespace {
 
 using reference::Strategy;
@@ -262,4 +262,4 @@ TEST(ReferenceEstimator, SeeThroughSurfacesDimBothWaysOfFindingLight) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::reference_estimator_test

@@ -15,7 +15,7 @@
 #include "shared/constants.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::field_reference_test {
 namespace {
 
 /// A view whose irradiance the reference knows.
@@ -50,8 +50,9 @@ const Spec kSpecs[] = {
     {"cornell_update_1", kCornell, glm::ivec3(9), 256, 1, 0.95, 1.05, 0.12},
     // Bar: four updates average that noise out
     {"cornell_update_4", kCornell, glm::ivec3(9), 256, 4, 0.98, 1.02, 0.08},
-    // Bar: probes twice as dense, once their noise is averaged out
-    {"cornell_17", kCornell, glm::ivec3(17), 256, 16, 0.98, 1.02, 0.05},
+    // Bar: probes twice as dense, once their noise is averaged out, as it nearly is by eight
+    // updates. Measured: 0.995, 0.044; by sixteen 0.996, 0.039
+    {"cornell_17", kCornell, glm::ivec3(17), 256, 8, 0.98, 1.02, 0.05},
     // All light comes through a gap of 40 cm, less than two probes: the mean must hold, the spots
     // beside the gap are finer than the field. Measured: 0.981, 0.097
     {"dark_room", kDarkRoom, glm::ivec3(17, 7, 9), 256, 8, 0.95, 1.05, 0.12},
@@ -142,4 +143,4 @@ INSTANTIATE_TEST_SUITE_P(Specs, FieldAgainstReference, testing::ValuesIn(kSpecs)
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::field_reference_test

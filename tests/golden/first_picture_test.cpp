@@ -11,7 +11,7 @@
 #include "stage/survey.h"
 #include "support/view_coverage.h"
 
-namespace lambent {
+namespace lambent::first_picture_test {
 namespace {
 
 std::filesystem::path scenes_dir() {
@@ -73,4 +73,4 @@ TEST(FirstPicture, StandsInRoomsAndLooksAlongThem) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::first_picture_test

@@ -16,7 +16,7 @@
 #include "support/field_scenes.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::layers_reference_test {
 namespace {
 
 /// A texture of ribs along v, as a normal map has them.
@@ -111,7 +111,8 @@ TEST(Layers, LookAsInTheReference) {
   ReferenceSettings by;
   by.width = kWidth;
   by.height = kHeight;
-  by.samples = 512;
+  // Their noise is part of the difference of pictures: 0.003 more than by twice as many
+  by.samples = 256;
   by.layer_errors = true;
   const Camera& camera = stage.scene.cameras[0];
   const LayeredImage ours =
@@ -126,8 +127,8 @@ TEST(Layers, LookAsInTheReference) {
   std::printf("FLIP %.4f; reflections: mean ratio %.4f, relative RMSE %.4f\n", all.flip,
               glossy.mean_ratio, rmse);
   // The bar for pictures is 0.10. Lacquer as sharp as this shows a lamp by rays that meet it, of
-  // which 32 samples are few: that noise is most of the error of reflections. Measured: 0.086;
-  // 0.972, 0.123
+  // which 32 samples are few: that noise is most of the error of reflections. Measured: 0.089;
+  // 0.985, 0.079
   EXPECT_LE(all.flip, 0.10);
   EXPECT_GE(glossy.mean_ratio, 0.95);
   EXPECT_LE(glossy.mean_ratio, 1.05);
@@ -135,4 +136,4 @@ TEST(Layers, LookAsInTheReference) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::layers_reference_test

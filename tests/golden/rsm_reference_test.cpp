@@ -18,7 +18,7 @@
 #include "shared/color.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::rsm_reference_test {
 namespace {
 
 using test::Stage;
@@ -211,4 +211,4 @@ TEST(RsmAgainstExhaustive, IsWithinEightPercentOnSponza) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::rsm_reference_test

@@ -10,7 +10,7 @@
 #include "reference/path_tracer.h"
 #include "shared/constants.h"
 
-namespace lambent {
+namespace lambent::truth_reference_test {
 namespace {
 
 using test::Agreement;
@@ -202,4 +202,4 @@ TEST(TruthReference, SealedRoomIsExactlyBlack) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::truth_reference_test

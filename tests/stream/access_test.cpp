@@ -10,7 +10,7 @@
 
 #include "support/temporary_directory.h"
 
-namespace lambent::stream {
+namespace lambent::stream::access_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -96,4 +96,4 @@ TEST(HostCheck, OnlyOurOwnPagesConnectAndThoseThatAreNamed) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::access_test

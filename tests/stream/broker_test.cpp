@@ -12,7 +12,7 @@
 #include "support/nats_server.h"
 #include "support/relayed_scene.h"
 
-namespace lambent::stream {
+namespace lambent::stream::broker_test {
 namespace {
 
 using test::becomes_true;
@@ -270,4 +270,4 @@ TEST_F(Broker, SaysWhatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::broker_test

@@ -4,7 +4,7 @@
 
 #include "stream/server/edit_forwarder.h"
 
-namespace lambent::stream {
+namespace lambent::stream::edit_forwarder_test {
 namespace {
 
 class Forwarding : public ::testing::Test {
@@ -112,4 +112,4 @@ TEST_F(Forwarding, WhoseEditIsRefusedOrLostIsTold) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::edit_forwarder_test

@@ -10,7 +10,7 @@
 #include "scenes/builtin.h"
 #include "stream/server/client_link.h"
 
-namespace lambent::stream {
+namespace lambent::stream::edits_test {
 namespace {
 
 LightInput light_at(const glm::vec3& position, std::uint32_t light = 0) {
@@ -209,4 +209,4 @@ TEST(ClientLinkRoles, WhoMayLookMayNotChange) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::edits_test

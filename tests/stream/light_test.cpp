@@ -13,7 +13,7 @@
 #include "stream/server/light_sender.h"
 #include "support/served_scene.h"
 
-namespace lambent::stream {
+namespace lambent::stream::light_test {
 namespace {
 
 using test::ServedScene;
@@ -389,4 +389,4 @@ TEST_F(LightLink, AKeyThatIsAskedForIsSentOnce) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::light_test

@@ -6,7 +6,7 @@
 
 #include "stream/server/rate_limit.h"
 
-namespace lambent::stream {
+namespace lambent::stream::pace_test {
 namespace {
 
 const PaceLimits kLimits{{1280, 720}, 30.0f, 20'000'000, 250.0};
@@ -93,4 +93,4 @@ TEST(RateLimit, LetsBurstsPassAndThenTheRate) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::pace_test

@@ -12,7 +12,7 @@
 #include <array>
 #include <thread>
 
-namespace lambent::stream {
+namespace lambent::stream::path_time_test {
 namespace {
 
 /// Both ends of a TCP connection on loopback.
@@ -78,4 +78,4 @@ TEST(PathTime, IsNotKnownOfWhatIsNoConnection) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::path_time_test

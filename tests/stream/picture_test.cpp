@@ -12,7 +12,7 @@
 
 #include "stream/picture/h264.h"
 
-namespace lambent::stream {
+namespace lambent::stream::picture_test {
 namespace {
 
 constexpr int kWidth = 160, kHeight = 96;
@@ -167,4 +167,4 @@ TEST(PictureDecoder, RefusesWhatIsNoPicture) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::picture_test

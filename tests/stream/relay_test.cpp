@@ -12,7 +12,7 @@
 #include "support/relayed_scene.h"
 #include "support/temporary_directory.h"
 
-namespace lambent::stream {
+namespace lambent::stream::relay_test {
 namespace {
 
 using test::becomes_true;
@@ -327,4 +327,4 @@ TEST(Relay, IsKnownToItsServerByATokenAndChecksItsCertificate) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::relay_test

@@ -17,7 +17,7 @@
 #include "support/http_get.h"
 #include "support/program.h"
 
-namespace lambent {
+namespace lambent::serve_command_test {
 namespace {
 
 using test::ProgramResult;
@@ -233,4 +233,4 @@ TEST(ConnectCommand, TellsWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::serve_command_test

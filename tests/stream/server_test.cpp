@@ -14,7 +14,7 @@
 #include "support/served_scene.h"
 #include "support/temporary_directory.h"
 
-namespace lambent::stream {
+namespace lambent::stream::server_test {
 namespace {
 
 using test::is_closed;
@@ -251,4 +251,4 @@ TEST(Server, SaysFarewellWhenItEnds) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::server_test

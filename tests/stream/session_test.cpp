@@ -13,7 +13,7 @@
 #include "support/served_scene.h"
 #include "support/temporary_directory.h"
 
-namespace lambent::stream {
+namespace lambent::stream::session_test {
 namespace {
 
 using std::chrono::microseconds;
@@ -210,4 +210,4 @@ TEST(SessionReplay, FailsWhereTheServerRefuses) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::session_test

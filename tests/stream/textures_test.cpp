@@ -11,7 +11,7 @@
 #include "support/light_box.h"
 #include "support/served_scene.h"
 
-namespace lambent::stream {
+namespace lambent::stream::textures_test {
 namespace {
 
 using test::Box;
@@ -183,4 +183,4 @@ TEST(WithoutH265, AServerRefusesTexturesWithTheReason) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::textures_test

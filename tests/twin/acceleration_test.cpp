@@ -7,7 +7,7 @@
 #include "support/hand_made.h"
 #include "support/vulkan_device.h"
 
-namespace lambent {
+namespace lambent::acceleration_test {
 namespace {
 
 using vulkan::AccelerationStructure;
@@ -68,4 +68,4 @@ TEST_F(AccelerationStructures, OfNothingAreNone) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::acceleration_test

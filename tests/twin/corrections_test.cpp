@@ -13,7 +13,7 @@
 #include "twin/field_update_cpu.h"
 #include "vulkan/device_memory.h"
 
-namespace lambent {
+namespace lambent::corrections_test {
 namespace {
 
 using test::few_cascades;
@@ -158,4 +158,4 @@ TEST_F(Corrections, AreReadAsOnTheProcessor) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::corrections_test

@@ -12,7 +12,7 @@
 #include "twin/host_tracer.h"
 #include "twin/material_scene.h"
 
-namespace lambent {
+namespace lambent::coverage_test {
 namespace {
 
 using CoverageTwin = test::OnDevice;
@@ -70,4 +70,4 @@ TEST_F(CoverageTwin, StopsTheRaysThatTheHostStops) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::coverage_test

@@ -11,7 +11,7 @@
 #include "shared/random.h"
 #include "support/vulkan_device.h"
 
-namespace lambent {
+namespace lambent::denoise_test {
 namespace {
 
 /// A bent wall with a step in it and a hole that shows nothing, under noisy light.
@@ -174,4 +174,4 @@ TEST_F(DenoiseTwin, AddsToWhatIsThereWhereItIsAskedTo) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::denoise_test

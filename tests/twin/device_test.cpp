@@ -10,7 +10,7 @@
 #include "vulkan/recorder.h"
 #include "vulkan/reflect.h"
 
-namespace lambent {
+namespace lambent::device_test {
 namespace {
 
 using VulkanDevice = test::OnDevice;
@@ -105,4 +105,4 @@ TEST(VulkanDevices, SaysWhichThereAre) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::device_test

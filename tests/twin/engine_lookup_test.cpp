@@ -12,7 +12,7 @@
 #include "vulkan/buffer.h"
 #include "vulkan/recorder.h"
 
-namespace lambent {
+namespace lambent::engine_lookup_test {
 namespace {
 
 // Sums in another order, divisions and square roots of the device's own making; visibility is the
@@ -68,4 +68,4 @@ TEST_F(EngineLookup, OfOtherTilesAndFormatsDoes) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::engine_lookup_test

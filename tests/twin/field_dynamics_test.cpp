@@ -12,7 +12,7 @@
 #include "support/temporary_directory.h"
 #include "support/vulkan_device.h"
 
-namespace lambent {
+namespace lambent::field_dynamics_test {
 namespace {
 
 // Both fields draw the same random numbers. Some texels differ by a step, because of rays that
@@ -289,4 +289,4 @@ TEST_F(FieldOverTime, IsTheSameToTheBitTwice) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::field_dynamics_test

@@ -6,7 +6,7 @@
 #include "support/vulkan_device.h"
 #include "twin/field_update_cpu.h"
 
-namespace lambent {
+namespace lambent::field_lookup_test {
 namespace {
 
 struct LookupCase {
@@ -56,4 +56,4 @@ INSTANTIATE_TEST_SUITE_P(
                     LookupCase{IrradianceFormat::rgb9e5, DistanceFormat::rg16f, 3}));
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::field_lookup_test

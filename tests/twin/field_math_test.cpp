@@ -7,7 +7,7 @@
 #include "support/vulkan_device.h"
 #include "vulkan/recorder.h"
 
-namespace lambent {
+namespace lambent::field_math_test {
 namespace {
 
 using FieldMath = test::OnDevice;
@@ -64,4 +64,4 @@ TEST(AndersonMath, TakesStepsBackSoThatNothingIsLeft) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::field_math_test

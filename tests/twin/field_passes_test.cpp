@@ -7,7 +7,7 @@
 #include "twin/field_update_cpu.h"
 #include "vulkan/device_memory.h"
 
-namespace lambent {
+namespace lambent::field_passes_test {
 namespace {
 
 using test::few_cascades;
@@ -368,4 +368,4 @@ TEST_F(FieldPasses, ChangesOfLightAreMeasuredAsOnTheProcessor) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::field_passes_test

@@ -16,7 +16,7 @@
 #include "support/lit_box.h"
 #include "support/vulkan_device.h"
 
-namespace lambent {
+namespace lambent::frame_test {
 namespace {
 
 // The bar for pictures. Both sides draw the same random numbers; where a ray grazes an edge
@@ -389,4 +389,4 @@ TEST_F(Frame, WithMergedMapsIsAlike) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::frame_test

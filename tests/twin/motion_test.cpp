@@ -10,7 +10,7 @@
 #include "support/moving_scene.h"
 #include "support/vulkan_device.h"
 
-namespace lambent {
+namespace lambent::motion_test {
 namespace {
 
 constexpr int kWidth = 64, kHeight = 40;
@@ -107,4 +107,4 @@ TEST_F(Motion, AntialiasesAMovingSceneTheSame) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::motion_test

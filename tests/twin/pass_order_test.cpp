@@ -7,7 +7,7 @@
 #include "twin/engine_structure.h"
 #include "twin/recorded_field.h"
 
-namespace lambent {
+namespace lambent::pass_order_test {
 namespace {
 
 using test::cornell, test::recorded_settings;
@@ -87,4 +87,4 @@ INSTANTIATE_TEST_SUITE_P(Modes, RecordedPassOrder,
                          testing::Values(Visibility::moments, Visibility::hybrid));
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::pass_order_test

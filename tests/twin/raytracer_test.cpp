@@ -13,7 +13,7 @@
 #include "support/vulkan_device.h"
 #include "twin/trace_agreement.h"
 
-namespace lambent {
+namespace lambent::raytracer_test {
 namespace {
 
 using test::expect_same_answers;
@@ -276,4 +276,4 @@ TEST(DeviceMasks, TellInstancesApartAsTheHostsDo) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::raytracer_test

@@ -10,7 +10,7 @@
 #include "shared/random.h"
 #include "twin/recorded_field.h"
 
-namespace lambent {
+namespace lambent::recorded_cascades_test {
 namespace {
 
 using test::cornell, test::recorded_settings;
@@ -199,4 +199,4 @@ TEST(BatchPlan, ExpectsNoHistoryOfRecycledProbes) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::recorded_cascades_test

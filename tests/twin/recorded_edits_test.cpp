@@ -7,7 +7,7 @@
 #include "field/vulkan/recorded_plan.h"
 #include "twin/recorded_field.h"
 
-namespace lambent {
+namespace lambent::recorded_edits_test {
 namespace {
 
 using test::cornell, test::recorded_settings;
@@ -268,4 +268,4 @@ TEST(BatchPlan, DiscardsHistoryAfterAnEditWhereProbesTakeTurns) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::recorded_edits_test

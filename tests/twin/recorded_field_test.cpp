@@ -10,7 +10,7 @@
 #include "field/vulkan/recorded_arguments.h"
 #include "field/vulkan/recorded_plan.h"
 
-namespace lambent {
+namespace lambent::recorded_field_test {
 namespace {
 
 using test::cornell, test::recorded_settings, test::RecordedFieldTest;
@@ -179,4 +179,4 @@ TEST(BatchPlan, LeavesItToTheDeviceOnceRoundsAreOver) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::recorded_field_test

@@ -17,7 +17,7 @@
 #include "support/temporary_directory.h"
 #include "twin/recorded_field.h"
 
-namespace lambent {
+namespace lambent::recorded_start_test {
 namespace {
 
 using test::cornell, test::recorded_settings;
@@ -305,4 +305,4 @@ TEST(BatchPlan, FollowsEditsExactlyOnceAllProbesOfAFileHaveBeenTraced) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::recorded_start_test

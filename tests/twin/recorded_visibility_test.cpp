@@ -9,7 +9,7 @@
 #include "twin/recorded_field.h"
 #include "vulkan/kernel.h"
 
-namespace lambent {
+namespace lambent::recorded_visibility_test {
 namespace {
 
 using test::Stage;
@@ -249,4 +249,4 @@ TEST_F(RecordedVisibility, CountsWhatItTakes) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::recorded_visibility_test

@@ -13,7 +13,7 @@
 #include "support/field_scenes.h"
 #include "support/vulkan_device.h"
 
-namespace lambent {
+namespace lambent::relocate_test {
 namespace {
 
 using vulkan::Buffer, vulkan::Memory;
@@ -177,4 +177,4 @@ TEST_F(RelocationKernel, HasProbesStandWhereTheProcessorDoes) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::relocate_test

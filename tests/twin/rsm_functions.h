@@ -72,7 +72,7 @@ struct RsmInputs {
   int n;
 };
 
-LAMBENT_FN vec3 random_direction(LAMBENT_INOUT(RandomStream) random) {
+LAMBENT_FN vec3 random_unit_vector(LAMBENT_INOUT(RandomStream) random) {
   return sample_uniform_sphere(next_uniform2(random));
 }
 
@@ -88,17 +88,17 @@ LAMBENT_FN RsmInputs random_inputs(uint index) {
   RandomStream random = make_random_stream(index, 0x52534Du, 1u);
   RsmInputs a;
   a.position_ws = random_vector(random);
-  a.normal_ws = random_direction(random);
-  a.other_normal_ws = normalize(a.normal_ws + 0.5f * random_direction(random));
-  vec3 way = random_direction(random);
+  a.normal_ws = random_unit_vector(random);
+  a.other_normal_ws = normalize(a.normal_ws + 0.5f * random_unit_vector(random));
+  vec3 way = random_unit_vector(random);
   way = dot(way, a.normal_ws) > 0.0f ? way : -way;
   a.texel.position_ws = a.position_ws + way * (0.1f + next_uniform(random));
-  a.texel.normal_ws = normalize(random_direction(random) - way);
+  a.texel.normal_ws = normalize(random_unit_vector(random) - way);
   a.texel.area = 0.1f + next_uniform(random);
   a.texel.softening = 0.01f + 0.1f * next_uniform(random);
   a.texel.flux = random_vector(random);
   a.texel.unused = 0.0f;
-  Frame axes = make_frame(random_direction(random));
+  Frame axes = make_frame(random_unit_vector(random));
   a.projection.kind = index % 3u;
   a.projection.origin_ws = random_vector(random);
   a.projection.world_from_light = mat3(axes.tangent, axes.bitangent, axes.normal);

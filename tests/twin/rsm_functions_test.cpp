@@ -8,7 +8,7 @@
 #include "support/vulkan_device.h"
 #include "vulkan/recorder.h"
 
-namespace lambent {
+namespace lambent::rsm_functions_test {
 namespace {
 
 using RsmFunctionsTwin = test::OnDevice;
@@ -37,4 +37,4 @@ TEST_F(RsmFunctionsTwin, GiveTheSameOnTheDevice) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::rsm_functions_test

@@ -14,7 +14,7 @@
 #include "support/seen_view.h"
 #include "support/vulkan_device.h"
 
-namespace lambent {
+namespace lambent::rsm_maps_test {
 namespace {
 
 constexpr int kWidth = 61, kHeight = 43;
@@ -242,4 +242,4 @@ TEST_F(RsmMapsTwin, ChooseTheSameOfMapsMadeOneAfterTheOther) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::rsm_maps_test

@@ -14,7 +14,7 @@
 #include "support/seen_view.h"
 #include "support/vulkan_device.h"
 
-namespace lambent {
+namespace lambent::rsm_passes_test {
 namespace {
 
 /// Two bumpy walls, one before the other, and nothing here and there.
@@ -300,4 +300,4 @@ TEST_F(RsmTwin, UpsamplesTheSameLight) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::rsm_passes_test

@@ -11,7 +11,7 @@
 #include "twin/recorded_field.h"
 #include "vulkan/acceleration.h"
 
-namespace lambent {
+namespace lambent::schedule_test {
 namespace {
 
 using test::cornell, test::recorded_settings, test::RecordedFieldTest;
@@ -317,4 +317,4 @@ TEST_F(BudgetedFieldTest, TracesNoMoreThanItsProbesDecidedOn) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::schedule_test

@@ -9,7 +9,7 @@
 #include "support/vulkan_device.h"
 #include "twin/trace_agreement.h"
 
-namespace lambent {
+namespace lambent::see_through_test {
 namespace {
 
 using test::expect_same_answers;
@@ -139,4 +139,4 @@ TEST_F(SeeThroughTwin, BlendsLetTheSameShareOfRaysPass) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::see_through_test

@@ -12,7 +12,7 @@
 #include "vulkan/buffer.h"
 #include "vulkan/recorder.h"
 
-namespace lambent {
+namespace lambent::shading_math_test {
 namespace {
 
 using ShadingOnDevice = test::OnDevice;
@@ -82,4 +82,4 @@ TEST_F(ShadingOnDevice, DecidesTheSame) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::shading_math_test

@@ -20,7 +20,7 @@
 #include "twin/shading_agreement.h"
 #include "twin/trace_agreement.h"
 
-namespace lambent {
+namespace lambent::shading_test {
 namespace {
 
 using test::Agreement;
@@ -396,4 +396,4 @@ TEST_F(ShadingTwin, LightsPixelsAsTheHostDoes) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::shading_test

@@ -14,7 +14,7 @@
 #include "support/vulkan_device.h"
 #include "twin/copy_words.h"
 
-namespace lambent {
+namespace lambent::visibility_test {
 namespace {
 
 using test::Stage;
@@ -234,4 +234,4 @@ INSTANTIATE_TEST_SUITE_P(ByRays, SealedRoom,
                          testing::Values(Visibility::hybrid, Visibility::exact));
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::visibility_test

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace lambent {
+namespace lambent::albedo_shape_test {
 namespace {
 
 constexpr int kSamples = 4096;
@@ -125,4 +125,4 @@ TEST(ReflectedOverAlbedo, WidensTheLobesOfMirrors) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::albedo_shape_test

@@ -12,7 +12,7 @@
 #include "scenes/recipes.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::animation_test {
 namespace {
 
 using testing::HasSubstr;
@@ -346,4 +346,4 @@ TEST(Validate, NamesWhatIsWrongWithAnAnimation) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::animation_test

@@ -18,7 +18,7 @@
 #include "core/files/file_bytes.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::atomic_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -198,4 +198,4 @@ TEST(ReadFile, RefusesWhatIsMissingTooLargeOrADirectory) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::atomic_file_test

@@ -8,7 +8,7 @@
 #include "field/probes/tile.h"
 #include "shared/random.h"
 
-namespace lambent {
+namespace lambent::blend_test {
 namespace {
 
 // The kernel adds floats in the order of the rays, as the plain loop in double does not.
@@ -113,4 +113,4 @@ TEST(ProbeRays, AreUnitEvenAndDifferForEachUpdateAndSeed) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::blend_test

@@ -8,7 +8,7 @@
 #include "shared/random.h"
 #include "support/chi_squared.h"
 
-namespace lambent {
+namespace lambent::brdf_test {
 namespace {
 
 constexpr int kSamples = 200000;
@@ -167,4 +167,4 @@ INSTANTIATE_TEST_SUITE_P(
                     SamplerCase{0.8f, 30.0f, true, 0.6f}));
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::brdf_test

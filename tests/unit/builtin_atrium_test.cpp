@@ -8,7 +8,7 @@
 #include "shared/color.h"
 #include "shared/sampling.h"
 
-namespace lambent::scenes {
+namespace lambent::scenes::builtin_atrium_test {
 namespace {
 
 const AnimatedScene& atrium() {
@@ -183,4 +183,4 @@ TEST(Atrium, TexturesAreSeamless) {
 }
 
 }  // namespace
-}  // namespace lambent::scenes
+}  // namespace lambent::scenes::builtin_atrium_test

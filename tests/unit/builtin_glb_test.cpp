@@ -10,7 +10,7 @@
 #include "scenes/glb_writer.h"
 #include "scenes/recipes.h"
 
-namespace lambent::scenes {
+namespace lambent::scenes::builtin_glb_test {
 namespace {
 
 using testing::HasSubstr;
@@ -198,4 +198,4 @@ TEST(BuiltinGlb, TwoRoomsEqualThoseOfTheTruth) {
 }
 
 }  // namespace
-}  // namespace lambent::scenes
+}  // namespace lambent::scenes::builtin_glb_test

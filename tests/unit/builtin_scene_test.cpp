@@ -11,7 +11,7 @@
 #include "shared/random.h"
 #include "shared/sampling.h"
 
-namespace lambent::scenes {
+namespace lambent::scenes::builtin_scene_test {
 namespace {
 
 using testing::HasSubstr;
@@ -235,4 +235,4 @@ TEST(BuiltinScene, SquaresFaceEachOther) {
 }
 
 }  // namespace
-}  // namespace lambent::scenes
+}  // namespace lambent::scenes::builtin_scene_test

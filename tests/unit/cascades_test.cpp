@@ -12,7 +12,7 @@
 #include "support/field_scenes.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::cascades_test {
 namespace {
 
 using test::look_up;
@@ -25,15 +25,22 @@ const Stage& cornell() {
   static const Stage stage("cornell");
   return stage;
 }
-const vec3 kMiddle = 0.5f * (cornell().bounds().min + cornell().bounds().max);
-const float kSpacing = (cornell().bounds().max.x - cornell().bounds().min.x) / 7.0f;
+// Functions, so that the room is surveyed in processes that run these tests alone
+vec3 room_middle() {
+  static const Bounds bounds = cornell().bounds();
+  return 0.5f * (bounds.min + bounds.max);
+}
+float probe_spacing() {
+  static const Bounds bounds = cornell().bounds();
+  return (bounds.max.x - bounds.min.x) / 7.0f;
+}
 
 /// Cascades, the finest of which fills the box.
 FieldSettings cascades(int levels) {
   FieldSettings settings;
   settings.cascades = levels;
   settings.probe_count = ivec3(10);
-  settings.probe_spacing = kSpacing;
+  settings.probe_spacing = probe_spacing();
   settings.rays_per_probe = 64;
   return settings;
 }
@@ -74,7 +81,7 @@ TEST(Cascades, HoldTheLightOfOneVolume) {
   one.probe_count = ivec3(8);
   const std::vector<FieldQuery> points = seen_points(stage);
   const std::vector<glm::vec3> expected = look_up(make_field(stage, one, 8), points);
-  const IrradianceField field = settled_cascades(stage, cascades(2), kMiddle);
+  const IrradianceField field = settled_cascades(stage, cascades(2), room_middle());
   EXPECT_EQ(field.grids().size(), 2u);
   EXPECT_EQ(field.probes(), 2000);
   const std::vector<glm::vec3> light = look_up(field, points);
@@ -90,8 +97,8 @@ TEST(Cascades, ATurnedVolumeHoldsTheSameLight) {
   settings.probe_count = ivec3(6);
   const std::vector<glm::vec3> straight = look_up(make_field(stage, settings, 8), points);
   ProbeVolume volume;
-  volume.centre = kMiddle;
-  volume.size = vec3(9.0f * kSpacing);
+  volume.centre = room_middle();
+  volume.size = vec3(9.0f * probe_spacing());
   volume.probe_count = ivec3(10);
   const float c = std::cos(0.6f), s = std::sin(0.6f);
   volume.axes = {{c, 0.0f, -s}, {0.0f, 1.0f, 0.0f}, {s, 0.0f, c}};
@@ -104,9 +111,9 @@ TEST(Cascades, ATurnedVolumeHoldsTheSameLight) {
 
 TEST(Cascades, CoarseOnesAreTracedLessOften) {
   const Stage& stage = cornell();
-  IrradianceField field = settled_cascades(stage, cascades(3), kMiddle, 1);
+  IrradianceField field = settled_cascades(stage, cascades(3), room_middle(), 1);
   const std::vector<ProbeStatus> first(statuses_of(field).begin(), statuses_of(field).end());
-  for (int i = 0; i < 16; ++i) field.update(stage.world, {0, 0.0, kMiddle});
+  for (int i = 0; i < 16; ++i) field.update(stage.world, {0, 0.0, room_middle()});
   for (int level = 0; level < 3; ++level) {
     float samples = 0.0f;
     int live = 0;
@@ -126,11 +133,11 @@ TEST(Cascades, AScrollIsNotSeen) {
   const std::vector<FieldQuery> points = seen_points(stage);
   for (const vec3& way : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, -1, 0),
                           vec3(0, 0, 1), vec3(0, 0, -1)}) {
-    IrradianceField field = settled_cascades(stage, cascades(2), kMiddle, 16);
+    IrradianceField field = settled_cascades(stage, cascades(2), room_middle(), 16);
     // Three quarters of a cell off its middle the finest volume moves on
-    const vec3 middle = field.grids()[0].origin + 4.5f * kSpacing;
-    const vec3 nearly = middle + 0.74f * kSpacing * way;
-    const vec3 there = middle + 0.76f * kSpacing * way;
+    const vec3 middle = field.grids()[0].origin + 4.5f * probe_spacing();
+    const vec3 nearly = middle + 0.74f * probe_spacing() * way;
+    const vec3 there = middle + 0.76f * probe_spacing() * way;
     for (int i = 0; i < 4; ++i) field.update(stage.world, {64, 0.0, nearly});
     const std::vector<glm::vec3> before = look_up(field, points);
     const int recycled = field.update(stage.world, {64, 0.0, there}).probes_recycled;
@@ -142,12 +149,12 @@ TEST(Cascades, AScrollIsNotSeen) {
 
 TEST(Cascades, NewProbesTakeOverTheLightThatWasThere) {
   const Stage& stage = cornell();
-  IrradianceField field = settled_cascades(stage, cascades(2), kMiddle, 16);
+  IrradianceField field = settled_cascades(stage, cascades(2), room_middle(), 16);
   const std::vector<FieldQuery> points = seen_points(stage);
   const std::vector<glm::vec3> before = look_up(field, points);
   // Two cells at once, and nearly no rays to learn anything with
-  const UpdateStatistics moved =
-      field.update(stage.world, {64, 0.0, kMiddle + kSpacing * vec3(2.0f, 0.0f, 0.0f)});
+  const UpdateStatistics moved = field.update(
+      stage.world, {64, 0.0, room_middle() + probe_spacing() * vec3(2.0f, 0.0f, 0.0f)});
   EXPECT_GT(moved.probes_recycled, 0);
   EXPECT_LE(moved.probe_rays, 64u);
   EXPECT_LT(difference(look_up(field, points), before).rms, 0.1);
@@ -159,14 +166,14 @@ TEST(Cascades, FollowEditsWhileTheViewerMoves) {
   Scene scene = cornell().scene;
   World world(scene);
   IrradianceField field = IrradianceField::make(cascades(2), open_bounds(world)).value();
-  vec3 viewer = kMiddle;
+  vec3 viewer = room_middle();
   for (int i = 0; i < 12; ++i) field.update(world, {0, 0.0, viewer});
   const std::vector<FieldQuery> points = seen_points(cornell());
   const double before = mean_luminance(look_up(field, points));
   for (Material& material : scene.materials) material.emission *= 2.0f;
   ASSERT_TRUE(world.update());
   for (int i = 0; i < 6; ++i) {
-    viewer.x += 0.4f * kSpacing;
+    viewer.x += 0.4f * probe_spacing();
     field.update(world, {20000, 0.0, viewer});
   }
   EXPECT_NEAR(mean_luminance(look_up(field, points)), 2.0 * before, 0.1 * before);
@@ -176,19 +183,19 @@ TEST(Cascades, SurviveTheirFile) {
   test::TemporaryDirectory folder;
   const std::string path = folder.file("a.field");
   const Stage& stage = cornell();
-  IrradianceField field = settled_cascades(stage, cascades(2), kMiddle, 4);
-  field.update(stage.world, {0, 0.0, kMiddle + kSpacing * vec3(2.0f, -1.0f, 1.0f)});
+  IrradianceField field = settled_cascades(stage, cascades(2), room_middle(), 4);
+  field.update(stage.world, {0, 0.0, room_middle() + probe_spacing() * vec3(2.0f, -1.0f, 1.0f)});
   ASSERT_TRUE(save_field(path, field, stage.world));
   Expected<LoadedField> loaded = load_field(path, cascades(2), stage.world);
   ASSERT_TRUE(loaded) << loaded.error().message();
   const std::vector<FieldQuery> points = seen_points(stage);
   EXPECT_LT(difference(look_up(loaded->field, points), look_up(field, points)).largest, 1e-6);
   // ... and goes on following
-  const vec3 on = kMiddle + kSpacing * vec3(3.0f, -1.0f, 1.0f);
+  const vec3 on = room_middle() + probe_spacing() * vec3(3.0f, -1.0f, 1.0f);
   EXPECT_GT(loaded->field.update(stage.world, {0, 0.0, on}).probes_recycled, 0);
   field.update(stage.world, {0, 0.0, on});
   EXPECT_LT(difference(look_up(loaded->field, points), look_up(field, points)).rms, 0.1);
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::cascades_test

@@ -16,7 +16,7 @@
 #include "support/temporary_directory.h"
 #include "support/thread_ranks.h"
 
-namespace lambent {
+namespace lambent::checkpoint_test {
 namespace {
 
 using test::Contents;
@@ -157,4 +157,4 @@ TEST_F(ACheckpoint, IsRefusedWhereItIsBroken) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::checkpoint_test

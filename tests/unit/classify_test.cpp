@@ -8,7 +8,7 @@
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::classify_test {
 namespace {
 
 constexpr ProbeState kAll[] = {
@@ -132,4 +132,4 @@ TEST(ProbeStates, NearABoxAreThoseOfTheWholeField) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::classify_test

@@ -7,7 +7,7 @@
 
 #include "glossy/glossy_math.h"
 
-namespace lambent {
+namespace lambent::coat_reuse_test {
 namespace {
 
 constexpr int kEdge = 24;
@@ -86,4 +86,4 @@ TEST(CoatReuse, ShowsAPlainWallInAMirrorWithoutGrain) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::coat_reuse_test

@@ -10,7 +10,7 @@
 #include "core/image/tone_map.h"
 #include "shared/tone_map.h"
 
-namespace lambent {
+namespace lambent::color_test {
 namespace {
 
 TEST(Srgb, RoundTripAndKnownValues) {
@@ -112,4 +112,4 @@ TEST(ColorMap, DivergingIsPalestAtZeroAndTellsTheSign) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::color_test

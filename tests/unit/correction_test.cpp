@@ -10,7 +10,7 @@
 #include "field/correction/correction_table.h"
 #include "field/correction/train_math.h"
 
-namespace lambent {
+namespace lambent::correction_test {
 namespace {
 
 /// A grid of 9 x 9 x 9 probes, 0.8 m apart, so that the finest cells have edges of 0.1 m.
@@ -222,4 +222,4 @@ TEST(Corrections, LearnAtOneSurfelOfEachRun) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::correction_test

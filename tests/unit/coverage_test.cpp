@@ -13,7 +13,7 @@
 #include "scenes/mesh_builder.h"
 #include "scenes/parts.h"
 
-namespace lambent {
+namespace lambent::coverage_test {
 namespace {
 
 constexpr std::uint32_t kSeed = 3;
@@ -85,4 +85,4 @@ TEST(Coverage, PanesOfAQuarterHaveNoGrainInFourSamples) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::coverage_test

@@ -12,7 +12,7 @@
 #include "shared/cross_bilateral.h"
 #include "shared/random.h"
 
-namespace lambent {
+namespace lambent::cross_bilateral_test {
 namespace {
 
 constexpr int kWidth = 256;
@@ -162,4 +162,4 @@ TEST(CrossBilateral, WeighsLanesAsTheSharedFunctionDoes) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::cross_bilateral_test

@@ -8,7 +8,7 @@
 #include "lambent/denoise.h"
 #include "shared/random.h"
 
-namespace lambent {
+namespace lambent::denoise_lobes_test {
 namespace {
 
 constexpr float kPixelAngle = 0.002f;  // between neighbouring pixels' rays [rad]
@@ -209,4 +209,4 @@ TEST(DenoiseLobes, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::denoise_lobes_test

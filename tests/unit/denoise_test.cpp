@@ -11,7 +11,7 @@
 #include "shared/color.h"
 #include "shared/random.h"
 
-namespace lambent {
+namespace lambent::denoise_test {
 namespace {
 
 /// A picture of a wall one metre away whose pixels are a millimetre wide, and its light.
@@ -289,4 +289,4 @@ TEST(Denoise, RefusesWhatIsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::denoise_test

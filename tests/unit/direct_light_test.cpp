@@ -10,7 +10,7 @@
 #include "shared/constants.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::direct_light_test {
 namespace {
 
 constexpr float kRadiance = 12.0f;  // [W/(m^2 sr)]
@@ -73,4 +73,4 @@ TEST(DirectLight, OfALampCloseToASurfaceIsBounded) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::direct_light_test

@@ -13,7 +13,7 @@
 #include "shared/random.h"
 #include "support/panels.h"
 
-namespace lambent {
+namespace lambent::emitter_pieces_test {
 namespace {
 
 using test::add;
@@ -271,4 +271,4 @@ TEST(EmitterPieces, FollowTheTextureThatIsEdited) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::emitter_pieces_test

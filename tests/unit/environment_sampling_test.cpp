@@ -11,7 +11,7 @@
 #include "shared/sampling.h"
 #include "support/chi_squared.h"
 
-namespace lambent {
+namespace lambent::environment_sampling_test {
 namespace {
 
 constexpr int kSamples = 200000;
@@ -124,4 +124,4 @@ TEST(EnvironmentDistribution, IsEmptyForConstantAndBlackSkies) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::environment_sampling_test

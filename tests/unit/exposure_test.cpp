@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace lambent {
+namespace lambent::exposure_test {
 namespace {
 
 /// The factor that display_stops() stands for.
@@ -115,4 +115,4 @@ TEST(Exposure, IsTheSameByBands) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::exposure_test

@@ -17,7 +17,7 @@
 #include "scenes/builtin.h"
 #include "support/edited_field.h"
 
-namespace lambent {
+namespace lambent::field_edit_test {
 namespace {
 
 using test::Edited;
@@ -328,4 +328,4 @@ TEST(FieldEdit, ALampThatGoesOnAgainIsAsBrightAsItWas) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::field_edit_test

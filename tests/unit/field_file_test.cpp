@@ -12,7 +12,7 @@
 #include "core/files/file_bytes.h"
 #include "field/file/layout.h"
 
-namespace lambent {
+namespace lambent::field_file_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -269,4 +269,4 @@ TEST(FieldCorpus, HoldsFilesThatAreReadAndFilesThatAreRefused) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::field_file_test

@@ -10,7 +10,7 @@
 
 #include "core/pass_times.h"
 
-namespace lambent {
+namespace lambent::field_passes_test {
 namespace {
 
 /// Records the passes that are called.
@@ -114,4 +114,4 @@ TEST(PassTimes, AddUpByNameInTheOrderOfTheFirst) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::field_passes_test

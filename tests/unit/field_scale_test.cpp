@@ -9,7 +9,7 @@
 #include "shared/random.h"
 #include "shared/sampling.h"
 
-namespace lambent {
+namespace lambent::field_scale_test {
 namespace {
 
 /// Weights at some points of a cell of `scale` metres, whose probes store mean distances of 0.3 to
@@ -59,4 +59,4 @@ INSTANTIATE_TEST_SUITE_P(EveryFormat, FieldScale,
                          testing::Values(DistanceFormat::rg16f, DistanceFormat::rg32f));
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::field_scale_test

@@ -11,7 +11,7 @@
 #include "shared/random.h"
 #include "shared/sampling.h"
 
-namespace lambent {
+namespace lambent::field_tile_test {
 namespace {
 
 /// Maps a point of the octahedral map's plane, in or just outside the square, to the point of the
@@ -180,4 +180,4 @@ TEST(TileFit, LeavesAConstantAlone) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::field_tile_test

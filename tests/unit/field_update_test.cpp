@@ -15,7 +15,7 @@
 #include "lambent/renderer.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::field_update_test {
 namespace {
 
 using test::make_field;
@@ -159,4 +159,4 @@ TEST(IrradianceField, StaysDarkWithoutLightAndWithoutScene) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::field_update_test

@@ -10,7 +10,7 @@
 
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::file_names_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -88,4 +88,4 @@ TEST_F(FileNames, MayBeReadTwiceOrEmpty) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::file_names_test

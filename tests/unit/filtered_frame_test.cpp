@@ -11,7 +11,7 @@
 #include "lambent/renderer.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::filtered_frame_test {
 namespace {
 
 FieldSettings few_probes() {
@@ -232,4 +232,4 @@ TEST(FilteredFrame, WithoutAFieldFiltersDirectLightAlone) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::filtered_frame_test

@@ -9,7 +9,7 @@
 #include "support/box_scenes.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::first_light_test {
 namespace {
 
 using test::box_mesh;
@@ -132,4 +132,4 @@ TEST(FirstLight, LeavesTheSceneAsItIsWhereItsOwnIsChosen) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::first_light_test

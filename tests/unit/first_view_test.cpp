@@ -10,7 +10,7 @@
 #include "support/hand_made.h"
 #include "support/view_coverage.h"
 
-namespace lambent {
+namespace lambent::first_view_test {
 namespace {
 
 using test::box_mesh;
@@ -207,4 +207,4 @@ TEST(FirstView, KeepsTheAngleThatIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::first_view_test

@@ -4,7 +4,7 @@
 
 #include "fog/ambient.h"
 
-namespace lambent {
+namespace lambent::fog_ambient_test {
 namespace {
 
 float second_legendre(float cosine) {
@@ -39,4 +39,4 @@ TEST(FogAmbient, IsNeverNegative) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::fog_ambient_test

@@ -10,7 +10,7 @@
 #include "lambent/rsm.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::frame_rows_test {
 namespace {
 
 // Rows of a frame are cut into pieces that neither divide its height nor are alike.
@@ -134,4 +134,4 @@ TEST_F(FrameRows, ThatAreLeftAreRenderedWhereNoNumberIsGiven) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::frame_rows_test

@@ -12,7 +12,7 @@
 #include "gather/gather_math.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::gather_test {
 namespace {
 
 TEST(Gather, HilbertsCurveGoesFromPixelToNeighbourAndMeetsEachOnce) {
@@ -129,4 +129,4 @@ TEST(Gather, TellsHowNoisyItsLightIs) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::gather_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace lambent {
+namespace lambent::glossy_math_test {
 namespace {
 
 bool is_number(const vec3& v) {
@@ -39,4 +39,4 @@ TEST(CoatDirection, IsADirectionForARoughnessThatRoundingLiftsAboveOne) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::glossy_math_test

@@ -8,7 +8,7 @@
 
 #include "unit/gltf_builder.h"
 
-namespace lambent::gltf {
+namespace lambent::gltf::gltf_accessors_test {
 namespace {
 
 using test::error_of;
@@ -158,4 +158,4 @@ TEST(GltfAccessors, IndicesMustBeUnsignedScalars) {
 }
 
 }  // namespace
-}  // namespace lambent::gltf
+}  // namespace lambent::gltf::gltf_accessors_test

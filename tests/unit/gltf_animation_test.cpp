@@ -12,7 +12,7 @@
 #include "scenes/recipes.h"
 #include "unit/gltf_checks.h"
 
-namespace lambent {
+namespace lambent::gltf_animation_test {
 namespace {
 
 using test::error_of;
@@ -375,4 +375,4 @@ TEST(GltfAnimation, OfABuiltInSceneIsTheSameFromItsFile) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::gltf_animation_test

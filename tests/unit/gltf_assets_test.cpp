@@ -14,7 +14,7 @@
 #include "scene/texture.h"
 #include "unit/gltf_builder.h"
 
-namespace lambent {
+namespace lambent::gltf_assets_test {
 namespace {
 
 using test::error_of;
@@ -205,4 +205,4 @@ TEST(Assets, FuzzCorpusNeverCrashesAndImportsToValidScenes) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::gltf_assets_test

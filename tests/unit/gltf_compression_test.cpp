@@ -7,7 +7,7 @@
 
 #include "unit/gltf_builder.h"
 
-namespace lambent {
+namespace lambent::gltf_compression_test {
 namespace {
 
 using test::error_of;
@@ -234,4 +234,4 @@ TEST(GltfMeshopt, UncompressedViewsOfAFallbackBufferAreErrors) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::gltf_compression_test

@@ -10,7 +10,7 @@
 #include "scene/gltf/files.h"
 #include "unit/gltf_builder.h"
 
-namespace lambent {
+namespace lambent::gltf_container_test {
 namespace {
 
 using test::error_of;
@@ -266,4 +266,4 @@ TEST(GltfExtensions, EveryKnownOneIsFound) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::gltf_container_test

@@ -7,7 +7,7 @@
 #include "scene/limits.h"
 #include "unit/gltf_checks.h"
 
-namespace lambent {
+namespace lambent::gltf_lights_cameras_test {
 namespace {
 
 using test::error_of;
@@ -189,4 +189,4 @@ TEST(LookAt, StraightDownHasAFrameToo) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::gltf_lights_cameras_test

@@ -8,7 +8,7 @@
 #include "scene/texture.h"
 #include "unit/gltf_builder.h"
 
-namespace lambent {
+namespace lambent::gltf_materials_test {
 namespace {
 
 using test::error_of;
@@ -359,4 +359,4 @@ TEST(GltfTextures, MissingTextureCoordinatesAreAWarning) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::gltf_materials_test

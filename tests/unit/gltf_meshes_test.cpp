@@ -6,7 +6,7 @@
 
 #include "unit/gltf_builder.h"
 
-namespace lambent {
+namespace lambent::gltf_meshes_test {
 namespace {
 
 using test::error_of;
@@ -335,4 +335,4 @@ TEST(GltfMeshes, JointsThatDoNotExistAreErrors) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::gltf_meshes_test

@@ -10,7 +10,7 @@
 #include "raytracing/world_access.h"
 #include "unit/gltf_checks.h"
 
-namespace lambent {
+namespace lambent::gltf_nodes_test {
 namespace {
 
 using test::error_of;
@@ -360,4 +360,4 @@ TEST(GltfNodes, FogThatMakesNoSenseIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::gltf_nodes_test

@@ -13,7 +13,7 @@
 #include "scenes/glb_writer.h"
 #include "unit/gltf_checks.h"
 
-namespace lambent {
+namespace lambent::gltf_origin_test {
 namespace {
 
 using test::error_of;
@@ -286,4 +286,4 @@ TEST(GltfOrigin, LeavesPicturesOfFarScenesAsThoseOfNearOnes) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::gltf_origin_test

@@ -6,7 +6,7 @@
 #include "raytracing/surface_math.h"
 #include "unit/gltf_builder.h"
 
-namespace lambent {
+namespace lambent::gltf_specular_glossiness_test {
 namespace {
 
 using test::error_of;
@@ -93,4 +93,4 @@ TEST(GltfMaterials, WithAnIndexOfRefractionOfZeroReflectAllLight) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::gltf_specular_glossiness_test

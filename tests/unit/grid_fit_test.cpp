@@ -6,7 +6,7 @@
 
 #include "lambent/field.h"
 
-namespace lambent {
+namespace lambent::grid_fit_test {
 namespace {
 
 using testing::HasSubstr;
@@ -196,4 +196,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::grid_fit_test

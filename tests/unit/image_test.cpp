@@ -21,7 +21,7 @@
 #include "shared/color.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::image_test {
 namespace {
 
 Image ramp(int width, int height, int channels) {
@@ -347,4 +347,4 @@ TEST(ReadImage, ReadsEveryTruthImage) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::image_test

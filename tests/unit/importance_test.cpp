@@ -12,7 +12,7 @@
 #include "support/field_scenes.h"
 #include "support/random_store.h"
 
-namespace lambent {
+namespace lambent::importance_test {
 namespace {
 
 using test::Stage;
@@ -58,4 +58,4 @@ TEST(Importance, BringsRaysToWhatIsSeen) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::importance_test

@@ -6,7 +6,7 @@
 #include "raytracing/world_access.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::instance_flags_test {
 namespace {
 
 /// Three unit squares one behind the other, the first two of one mesh.
@@ -81,4 +81,4 @@ TEST(InstanceFlags, ThatConcernShadingAloneAreAChangeToo) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::instance_flags_test

@@ -13,7 +13,7 @@
 #include "raytracing/world_access.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::invalidation_test {
 namespace {
 
 TEST(InvalidationResult, SurfelsReadTheProbesAroundWhereTheyAreNow) {
@@ -61,4 +61,4 @@ TEST(InvalidationResult, SurfelsReadTheProbesAroundWhereTheyAreNow) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::invalidation_test

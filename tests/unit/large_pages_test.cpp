@@ -8,7 +8,7 @@
 #include <new>
 #include <vector>
 
-namespace lambent {
+namespace lambent::large_pages_test {
 namespace {
 
 TEST(LargePages, HoldArraysOfAnySize) {
@@ -27,4 +27,4 @@ TEST(LargePages, SayWhereThereIsNoMemory) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::large_pages_test

@@ -13,7 +13,7 @@
 #include "shared/brdf.h"
 #include "shared/random.h"
 
-namespace lambent {
+namespace lambent::layers_test {
 namespace {
 
 constexpr int kSamples = 1 << 15;
@@ -252,4 +252,4 @@ TEST(Layers, AlbedoTowardsLightFollowsTheAlbedo) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::layers_test

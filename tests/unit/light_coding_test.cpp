@@ -15,7 +15,7 @@
 #include "support/light_fuzz.h"
 #include "support/light_states.h"
 
-namespace lambent::stream {
+namespace lambent::stream::light_coding_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -334,4 +334,4 @@ TEST(LightFuzz, TakesItsCorpusAsItShould) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::light_coding_test

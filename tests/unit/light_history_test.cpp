@@ -11,7 +11,7 @@
 #include "lambent/renderer.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::light_history_test {
 namespace {
 
 /// A world that may be edited, and a field that stays as it was.
@@ -163,4 +163,4 @@ TEST(LightHistoryMath, AveragesVarianceAsThatOfAMean) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::light_history_test

@@ -8,7 +8,7 @@
 #include "stream/light/message.h"
 #include "support/light_box.h"
 
-namespace lambent::stream {
+namespace lambent::stream::light_join_test {
 namespace {
 
 using test::Box;
@@ -145,4 +145,4 @@ TEST(LightJoin, RefusesCorrectionsOfWhatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::light_join_test

@@ -8,7 +8,7 @@
 #include "stream/regions/region_encoder.h"
 #include "support/light_box.h"
 
-namespace lambent::stream {
+namespace lambent::stream::light_regions_test {
 namespace {
 
 using test::Box;
@@ -202,4 +202,4 @@ TEST(LightRegions, CascadesAreAlwaysNear) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::light_regions_test

@@ -8,7 +8,7 @@
 
 #include "field/probes/tile.h"
 
-namespace lambent::stream {
+namespace lambent::stream::light_signal_test {
 namespace {
 
 TEST(TileBasis, IsOrthonormalInTilesOfAllSizes) {
@@ -88,4 +88,4 @@ TEST(LightSignal, HoldsGreyLightInOneNumber) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::light_signal_test

@@ -9,7 +9,7 @@
 #include "stream/light/message.h"
 #include "support/light_box.h"
 
-namespace lambent::stream {
+namespace lambent::stream::light_stream_loss_test {
 namespace {
 
 using test::Box;
@@ -207,4 +207,4 @@ TEST(LightStream, RefusesBrokenMessagesAndKeepsItsState) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::light_stream_loss_test

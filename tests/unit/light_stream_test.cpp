@@ -7,7 +7,7 @@
 
 #include "support/light_box.h"
 
-namespace lambent::stream {
+namespace lambent::stream::light_stream_test {
 namespace {
 
 using test::Box;
@@ -162,4 +162,4 @@ TEST(LightStream, SaysWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::light_stream_test

@@ -10,7 +10,7 @@
 #include "support/chi_squared.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::light_test {
 namespace {
 
 using test::add;
@@ -212,4 +212,4 @@ TEST(EmissiveTriangles, NoneIsNoLight) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::light_test

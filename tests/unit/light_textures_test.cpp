@@ -11,7 +11,7 @@
 #include "field/probes/tile.h"
 #include "support/light_box.h"
 
-namespace lambent::stream {
+namespace lambent::stream::light_textures_test {
 namespace {
 
 using test::Box;
@@ -79,4 +79,4 @@ TEST(LightTextures, HoldWhatIsDecodedWhileLightChangesAndVolumesScroll) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::light_textures_test

@@ -15,7 +15,7 @@
 #include "support/chi_squared.h"
 #include "support/many_lights.h"
 
-namespace lambent {
+namespace lambent::light_tree_test {
 namespace {
 
 using test::many_lights;
@@ -317,4 +317,4 @@ TEST(LightTree, EstimatesTheSumOfAllLights) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::light_tree_test

@@ -17,7 +17,7 @@
 #include "scene/animation/pose.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::limits_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -240,4 +240,4 @@ TEST(Limits, ColorsKeepTheirHueWhenTheyAreReduced) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::limits_test

@@ -16,7 +16,7 @@
 #include "support/field_scenes.h"
 #include "support/random_store.h"
 
-namespace lambent {
+namespace lambent::lookup_test {
 namespace {
 
 using test::look_up;
@@ -221,4 +221,4 @@ TEST(IrradianceLookup, IsDarkBehindAClosedWall) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::lookup_test

@@ -14,7 +14,7 @@
 #include "shared/sampling.h"
 #include "support/chi_squared.h"
 
-namespace lambent {
+namespace lambent::media_test {
 namespace {
 
 // Of optical depths in floats against integrals in double.
@@ -200,4 +200,4 @@ TEST(Fog, IsValidatedWithItsScene) {
 INSTANTIATE_TEST_SUITE_P(Anisotropies, Phase, testing::Values(0.0f, 0.3f, -0.6f, 0.95f));
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::media_test

@@ -10,7 +10,7 @@
 
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::memory_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -67,4 +67,4 @@ TEST(BytesText, HasTwoOrThreeDigitsAndAUnit) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::memory_test

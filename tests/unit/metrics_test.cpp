@@ -14,7 +14,7 @@
 #include "shared/color.h"
 #include "shared/random.h"
 
-namespace lambent {
+namespace lambent::metrics_test {
 namespace {
 
 Image constant(int width, int height, vec3 color) {
@@ -254,4 +254,4 @@ TEST(Metrics, TruthAgainstItselfWithItsOwnNoiseIsClean) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::metrics_test

@@ -15,7 +15,7 @@
 #include "raytracing/world_access.h"
 #include "support/moving_scene.h"
 
-namespace lambent {
+namespace lambent::motion_test {
 namespace {
 
 using test::Mover;
@@ -324,4 +324,4 @@ TEST_F(MotionTest, IsTheSameOfAPictureInParts) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::motion_test

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace lambent {
+namespace lambent::nearest_word_test {
 namespace {
 
 const std::vector<std::string> kWords = {"render", "field",     "rsm+field",
@@ -56,4 +56,4 @@ TEST(DidYouMean, IsAQuestionOrNothing) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::nearest_word_test

@@ -7,7 +7,7 @@
 
 #include "shared/sampling.h"
 
-namespace lambent {
+namespace lambent::octahedral_test {
 namespace {
 
 TEST(Octahedral, DecodingUndoesEncoding) {
@@ -44,4 +44,4 @@ TEST(Octahedral, LengthDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::octahedral_test

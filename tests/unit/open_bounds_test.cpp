@@ -10,7 +10,7 @@
 #include "support/field_scenes.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::open_bounds_test {
 namespace {
 
 using glm::vec3;
@@ -75,4 +75,4 @@ TEST(FieldLight, IsTheSkysOnTheOutsideOfARoomThatIsSeenFromThere) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::open_bounds_test

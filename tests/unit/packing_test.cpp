@@ -8,7 +8,7 @@
 #include "field/probes/irradiance_encoding.h"
 #include "shared/random.h"
 
-namespace lambent {
+namespace lambent::packing_test {
 namespace {
 
 // Dither that must not disturb what is exactly a code: the least, the middle, nearly the most.
@@ -185,4 +185,4 @@ TEST(R11g11b10f, DitherIsUnbiasedInLinearLightAndNeverOffByMoreThanAStep) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::packing_test

@@ -12,7 +12,7 @@
 #include "support/hand_made.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::prepared_scene_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -222,4 +222,4 @@ TEST_F(PreparedScene, KeepsTheLevelsThatFit) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::prepared_scene_test

@@ -8,7 +8,7 @@
 #include "field/probes/volumes.h"
 #include "shared/random.h"
 
-namespace lambent {
+namespace lambent::probe_store_test {
 namespace {
 
 constexpr float kHysteresis = 0.97f;
@@ -161,4 +161,4 @@ TEST(ProbeStore, TheSameSaltStoresTheSameBits) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::probe_store_test

@@ -9,7 +9,7 @@
 #include "shared/constants.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::probe_view_test {
 namespace {
 
 constexpr int kWidth = 160, kHeight = 120;
@@ -127,4 +127,4 @@ TEST_F(ProbeView, EveryAspectHasItsColours) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::probe_view_test

@@ -5,7 +5,7 @@
 
 #include "lambent/progress_bar.h"
 
-namespace lambent::cli {
+namespace lambent::cli::progress_test {
 namespace {
 
 /// A bar on a terminal of 60 columns whose clock the test moves.
@@ -80,4 +80,4 @@ TEST(ProgressBar, WipesItsLineWhenAbandoned) {
 }
 
 }  // namespace
-}  // namespace lambent::cli
+}  // namespace lambent::cli::progress_test

@@ -15,7 +15,7 @@
 #include "stream/protocol/messages.h"
 #include "support/protocol_messages.h"
 
-namespace lambent::stream {
+namespace lambent::stream::protocol_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -157,4 +157,4 @@ TEST(Protocol, FilesOfTheFuzzCorpusAreReadByOneSide) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::protocol_test

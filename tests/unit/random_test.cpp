@@ -7,7 +7,7 @@
 
 #include "support/chi_squared.h"
 
-namespace lambent {
+namespace lambent::random_test {
 namespace {
 
 constexpr int kSamples = 100000;
@@ -53,4 +53,4 @@ TEST(Random, LargestBitsStayBelowOne) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::random_test

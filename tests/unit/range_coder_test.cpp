@@ -9,7 +9,7 @@
 
 #include "stream/coding/bit_models.h"
 
-namespace lambent::stream {
+namespace lambent::stream::range_coder_test {
 namespace {
 
 /// A decision and the probability of a 1 that it is coded with.
@@ -161,4 +161,4 @@ TEST(BitModels, TurnProbabilitiesIntoLogOddsAndBack) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::range_coder_test

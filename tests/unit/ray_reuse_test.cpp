@@ -11,7 +11,7 @@
 #include "raytracing/camera_rays.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::ray_reuse_test {
 namespace {
 
 // Not a multiple of any number of lanes
@@ -145,4 +145,4 @@ TEST_F(RayReuseTest, SumsUpInLanesWhatOnePixelAfterTheOtherDoes) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::ray_reuse_test

@@ -17,7 +17,7 @@
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::relocate_test {
 namespace {
 
 using test::box_mesh;
@@ -211,4 +211,4 @@ TEST(Relocation, IsASettingOfTheField) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::relocate_test

@@ -8,7 +8,7 @@
 
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::renderer_test {
 namespace {
 
 FrameSettings size_of(int width, int height) {
@@ -211,4 +211,4 @@ TEST_F(RendererTest, SeesWhatItsWorldAndFieldBecame) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::renderer_test

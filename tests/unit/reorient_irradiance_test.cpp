@@ -14,7 +14,7 @@
 #include "shared/random.h"
 #include "support/made_view.h"
 
-namespace lambent {
+namespace lambent::reorient_irradiance_test {
 namespace {
 
 const vec3 kUp(0.0f, 0.0f, 1.0f);
@@ -168,4 +168,4 @@ TEST(RsmRelight, ServesTheDiskAndEachBlurAlone) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::reorient_irradiance_test

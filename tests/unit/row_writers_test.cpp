@@ -11,7 +11,7 @@
 #include "core/files/file_bytes.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::row_writers_test {
 namespace {
 
 // Neither divides the other, nor the blocks of 16 lines that OpenEXR compresses.
@@ -100,4 +100,4 @@ TEST(RowWriters, TellOfAFullDisk) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::row_writers_test

@@ -14,7 +14,7 @@
 #include "support/field_scenes.h"
 #include "support/lit_box.h"
 
-namespace lambent {
+namespace lambent::rsm_direct_test {
 namespace {
 
 using test::Stage;
@@ -250,4 +250,4 @@ TEST(RsmDirect, SettingsAreRefusedWhereTheyMeanNothing) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::rsm_direct_test

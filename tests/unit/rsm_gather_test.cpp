@@ -13,7 +13,7 @@
 #include "support/hand_made.h"
 #include "support/made_view.h"
 
-namespace lambent {
+namespace lambent::rsm_gather_test {
 namespace {
 
 using test::Stage;
@@ -344,4 +344,4 @@ TEST(RsmSettings, OutOfRangeAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::rsm_gather_test

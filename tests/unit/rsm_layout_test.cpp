@@ -13,7 +13,7 @@
 #include "rsm/passes.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::rsm_layout_test {
 namespace {
 
 /// A view whose normals are all different, so that a pixel tells where it came from.
@@ -193,4 +193,4 @@ TEST(RsmLights, VisitsEveryTexelOfTheMapOnceAlongTheCurve) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::rsm_layout_test

@@ -16,7 +16,7 @@
 #include "support/lit_box.h"
 #include "support/made_view.h"
 
-namespace lambent {
+namespace lambent::rsm_many_lights_test {
 namespace {
 
 using test::Stage;
@@ -200,4 +200,4 @@ TEST(RsmMergedMaps, DoNotTakeSurfacesForLargerThatSeveralLightsReach) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::rsm_many_lights_test

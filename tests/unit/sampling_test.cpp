@@ -10,7 +10,7 @@
 #include "reference/sampler.h"
 #include "shared/random.h"
 
-namespace lambent {
+namespace lambent::sampling_test {
 namespace {
 
 TEST(Sampling, FrameIsOrthonormalForEveryNormal) {
@@ -170,4 +170,4 @@ TEST(SobolSampler, IsUniformOverSeeds) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::sampling_test

@@ -13,7 +13,7 @@
 #include "support/field_scenes.h"
 #include "support/temporary_directory.h"
 
-namespace lambent {
+namespace lambent::saved_field_test {
 namespace {
 
 using test::make_field;
@@ -184,4 +184,4 @@ TEST_F(SavedField, LeavesNothingWhereItCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::saved_field_test

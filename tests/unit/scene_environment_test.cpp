@@ -8,7 +8,7 @@
 
 #include "lambent/scene.h"
 
-namespace lambent {
+namespace lambent::scene_environment_test {
 namespace {
 
 using testing::ElementsAre;
@@ -73,4 +73,4 @@ TEST_F(LoadEnvironment, MissingAndBrokenFilesAreErrors) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::scene_environment_test

@@ -9,7 +9,7 @@
 
 #include "shared/color.h"
 
-namespace lambent {
+namespace lambent::scene_texture_test {
 namespace {
 
 constexpr float kTolerance = 1e-5f;
@@ -182,4 +182,4 @@ TEST(NearestTexel, ClampsLevelsToThoseThatExist) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::scene_texture_test

@@ -8,7 +8,7 @@
 #include "lambent/scene.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::scene_validate_test {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -146,4 +146,4 @@ TEST(Bounds, AreEmptyAsSoonAsOneAxisIs) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::scene_validate_test

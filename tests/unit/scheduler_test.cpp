@@ -8,7 +8,7 @@
 #include "field/schedule/schedule.h"
 #include "shared/random.h"
 
-namespace lambent {
+namespace lambent::scheduler_test {
 namespace {
 
 /// The probes of a box, and their statuses.
@@ -154,4 +154,4 @@ TEST(ProbeScheduler, WhatItKeepsInMindIsWhatItWouldFindAnew) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::scheduler_test

@@ -7,7 +7,7 @@
 #include "support/field_scenes.h"
 #include "support/floor_behind_a_pane.h"
 
-namespace lambent {
+namespace lambent::seen_through_test {
 namespace {
 
 constexpr float kClear = 0.0f, kFrosted = 0.4f;  // roughness
@@ -151,4 +151,4 @@ TEST(SeenThrough, APartOfAPictureIsThatOfTheWhole) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::seen_through_test

@@ -12,7 +12,7 @@
 #include "lambent/rsm.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::settings_test {
 namespace {
 
 const float kNan = std::nanf("");
@@ -120,4 +120,4 @@ TEST(RsmGather, IsRefusedForViewsThatAreNotWhole) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::settings_test

@@ -12,7 +12,7 @@
 #include "support/field_scenes.h"
 #include "support/thread_ranks.h"
 
-namespace lambent {
+namespace lambent::shared_field_test {
 namespace {
 
 using test::Contents;
@@ -142,4 +142,4 @@ TEST(SharedTexels, SumToTheBitsOfASingleRankWhereverTheyArePartedAt) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::shared_field_test

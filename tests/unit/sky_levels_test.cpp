@@ -9,7 +9,7 @@
 #include "shared/constants.h"
 #include "shared/sampling.h"
 
-namespace lambent {
+namespace lambent::sky_levels_test {
 namespace {
 
 constexpr int kDirections = 20000;
@@ -87,4 +87,4 @@ TEST(SkyLevels, FollowEditsOfTheMap) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::sky_levels_test

@@ -13,7 +13,7 @@
 #include "support/field_scenes.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::solid_sides_test {
 namespace {
 
 using test::box_mesh;
@@ -137,4 +137,4 @@ TEST(FieldLight, IsTheSameWhicheverWayMeshesAreWound) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::solid_sides_test

@@ -12,7 +12,7 @@
 #include "raytracing/world_access.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::solve_bounces_test {
 namespace {
 
 using test::look_up;
@@ -223,4 +223,4 @@ TEST(IrradianceField, AllBouncesEqualVeryMany) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::solve_bounces_test

@@ -12,7 +12,7 @@
 #include "shared/random.h"
 #include "support/chi_squared.h"
 
-namespace lambent {
+namespace lambent::spherical_triangle_test {
 namespace {
 
 struct Corners {
@@ -104,4 +104,4 @@ TEST(SphericalTriangle, IsNotSeenFromItself) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::spherical_triangle_test

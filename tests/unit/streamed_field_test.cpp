@@ -10,7 +10,7 @@
 #include "lambent/stream.h"
 #include "support/field_scenes.h"
 
-namespace lambent::stream {
+namespace lambent::stream::streamed_field_test {
 namespace {
 
 /// Root mean square of the difference of a layer of two frames, over the first one's mean.
@@ -191,4 +191,4 @@ TEST(StreamedField, AnswersQueriesWithoutAWorld) {
 }
 
 }  // namespace
-}  // namespace lambent::stream
+}  // namespace lambent::stream::streamed_field_test

@@ -12,7 +12,7 @@
 #include "shared/sampling.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::surface_test {
 namespace {
 
 using test::add;
@@ -392,4 +392,4 @@ TEST(CameraRays, OrthographicRaysAreParallel) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::surface_test

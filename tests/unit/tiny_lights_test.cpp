@@ -14,7 +14,7 @@
 #include "shared/random.h"
 #include "support/panels.h"
 
-namespace lambent {
+namespace lambent::tiny_lights_test {
 namespace {
 
 constexpr float kEmission = 2.0f;  // [W/(m^2 sr)]
@@ -127,4 +127,4 @@ TEST(TinyLightsInAScene, LightWhatIsFarAway) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::tiny_lights_test

@@ -13,7 +13,7 @@
 #include "scenes/parts.h"
 #include "shared/random.h"
 
-namespace lambent {
+namespace lambent::transmission_test {
 namespace {
 
 const vec3 kUp(0.0f, 0.0f, 1.0f);
@@ -175,4 +175,4 @@ TEST(Transmittance, OfProbeRaysIsRightOnAverage) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::transmission_test

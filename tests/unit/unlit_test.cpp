@@ -13,7 +13,7 @@
 #include "reference/path_tracer.h"
 #include "support/unlit_scene.h"
 
-namespace lambent {
+namespace lambent::unlit_test {
 namespace {
 
 constexpr int kSize = 16;
@@ -87,4 +87,4 @@ TEST(Unlit, ColorsShowAsTheyAreAtAnyExposure) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::unlit_test

@@ -11,7 +11,7 @@
 #include "shared/sampling.h"
 #include "support/many_lights.h"
 
-namespace lambent {
+namespace lambent::unoccluded_light_test {
 namespace {
 
 /// The share of cosine-distributed directions that meet a triangle.
@@ -133,4 +133,4 @@ TEST(UnoccludedLight, HasNoStepsFromPlaceToPlace) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::unoccluded_light_test

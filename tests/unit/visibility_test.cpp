@@ -18,7 +18,7 @@
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"
 
-namespace lambent {
+namespace lambent::visibility_test {
 namespace {
 
 using test::Stage;
@@ -271,4 +271,4 @@ TEST(CellVisibility, KnowWhichProbesOfACellAWallParts) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::visibility_test

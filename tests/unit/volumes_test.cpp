@@ -13,7 +13,7 @@
 #include "support/field_scenes.h"
 #include "support/random_store.h"
 
-namespace lambent {
+namespace lambent::volumes_test {
 namespace {
 
 using testing::HasSubstr;
@@ -280,4 +280,4 @@ TEST(Volumes, ThatMakeNoSenseAreRefused) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::volumes_test

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace lambent::cli {
+namespace lambent::cli::words_test {
 namespace {
 
 TEST(Words, BytesHaveTheUnitThatKeepsThemShort) {
@@ -55,4 +55,4 @@ TEST(Words, WhatIsNotThereIsAnsweredWithWhatIs) {
 }
 
 }  // namespace
-}  // namespace lambent::cli
+}  // namespace lambent::cli::words_test

@@ -12,7 +12,7 @@
 #include "scene/light_sampling.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::world_update_test {
 namespace {
 
 constexpr int kGrey = 0, kLamp = 1;
@@ -385,4 +385,4 @@ TEST(WorldUpdate, ForgetsChangesBeyondTheLog) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::world_update_test
