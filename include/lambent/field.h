@@ -106,8 +106,9 @@ struct FieldSettings {
   /// Bounces of indirect light to carry, >= 0; -1: all. 0 is the sky's light alone. A limit is
   /// exact but not accelerated: each bounce costs an iteration of the solve.
   int max_bounces = -1;
-  /// Albedo is clamped to this at surfels, so that light always dies out, 0 to 0.99.
-  float max_albedo = 0.95f;
+  /// Upper bound of the mean albedo of surfels over all directions, so that light always dies out,
+  /// 0 to 0.99. Below the albedo of real surfaces, rooms become too dark.
+  float max_albedo = 0.99f;
 
   /// Samples of emissive triangles, and of point and spot lights where there are many, for a
   /// surfel's direct light, 1 to 64. Each costs a shadow ray.

@@ -4,6 +4,7 @@
 #define LAMBENT_RAYTRACING_SHADED_HIT_H
 
 #include "raytracing/surface_math.h"
+#include "shared/albedo_shape.h"
 
 LAMBENT_BEGIN
 
@@ -31,8 +32,8 @@ LAMBENT_FN ShadedHitRecord shaded_sky(vec3 sky_radiance) {
   return hit;
 }
 
-/// The record of a ray that hit a surface. `from_inside` 1: the ray hit a side that bounds solid
-/// matter, and is discounted.
+/// The record of a ray that hit a surface. `max_albedo` bounds the surface's mean albedo.
+/// `from_inside` 1: the ray hit a side that bounds solid matter, and is discounted.
 LAMBENT_FN ShadedHitRecord shaded_surface(Surface surface, vec3 direction_ws, float max_albedo,
                                           uint from_inside) {
   ShadedHitRecord hit = {vec3(0.0f), vec3(0.0f), surface.material, kSurfaceDiscounted, 0.0f};
@@ -41,8 +42,7 @@ LAMBENT_FN ShadedHitRecord shaded_surface(Surface surface, vec3 direction_ws, fl
   hit.gi_share = surface.gi_share;
   hit.radiance = surface.emission;
   float n_dot_v = -dot(surface.normal_ws, direction_ws);
-  vec3 albedo = min(effective_albedo(surface.reflectance, n_dot_v), vec3(max_albedo));
-  hit.albedo_over_pi = albedo * kInvPi;
+  hit.albedo_over_pi = bounded_albedo(surface.reflectance, n_dot_v, max_albedo) * kInvPi;
   return hit;
 }
 

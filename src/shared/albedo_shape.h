@@ -46,26 +46,59 @@ const float kShapeFactorRange = 32.0f;
 const float kMeanFirst = 1.0f / 3.0f;
 const float kMeanFifth = 1.0f / 21.0f;
 
+// Nodes and weights of Gauss-Legendre quadrature over the cosine.
+const int kCosineNodes = 5;
+const float kCosinePoints[5] = {0.0469101f, 0.2307653f, 0.5f, 0.7692347f, 0.9530899f};
+const float kCosineWeights[5] = {0.1184634f, 0.2393143f, 0.2844444f, 0.2393143f, 0.1184634f};
+
+/// The mean of effective_albedo over light from a uniform sky: the share of the light that arrives
+/// which the surface reflects to all sides together.
+LAMBENT_FN vec3 mean_albedo(Reflectance surface) {
+  if (has_layers(surface.layers)) {
+    vec3 mean = vec3(0.0f);
+    for (int i = 0; i < kCosineNodes; ++i) {
+      surface.layers.clearcoat_cosine = kCosinePoints[i];
+      mean += (2.0f * kCosineWeights[i] * kCosinePoints[i]) *
+              effective_albedo(surface, kCosinePoints[i]);
+    }
+    return mean;
+  }
+  if (surface.f90 <= 0.0f) return surface.diffuse;
+  float roughness = sqrt(surface.alpha);
+  vec3 edge = vec3(surface.f90) - surface.f0;
+  return surface.diffuse * (vec3(1.0f) - surface.f0 - edge * kMeanBaseSchlick) +
+         surface.f0 * mean_ggx_albedo(roughness) + edge * mean_ggx_schlick(roughness);
+}
+
+// Keeps the division by the mean albedo finite for black surfaces.
+const float kLeastMeanAlbedo = 1e-6f;
+
+/// effective_albedo(), scaled down where its mean would exceed `max_mean`. The mean alone decides
+/// whether light dies out from bounce to bounce. Towards grazing directions a smooth coat over a
+/// bright base has an albedo far above 1 in glTF's formulas (1.5 at a cosine of 0.1), which other
+/// directions make up for: a bound on each direction would lose that light.
+LAMBENT_FN vec3 bounded_albedo(Reflectance surface, float n_dot_v, float max_mean) {
+  vec3 scale = min(vec3(1.0f), vec3(max_mean) / max(mean_albedo(surface), vec3(kLeastMeanAlbedo)));
+  return effective_albedo(surface, n_dot_v) * scale;
+}
+
 /// The factors k1 and k5 that best fit the albedo of a gray surface with layers.
 LAMBENT_FN vec2 layered_shape_factors(Reflectance gray) {
-  // Nodes and weights of Gauss-Legendre quadrature over the cosine
-  const float points[5] = {0.0469101f, 0.2307653f, 0.5f, 0.7692347f, 0.9530899f};
-  const float weights[5] = {0.1184634f, 0.2393143f, 0.2844444f, 0.2393143f, 0.1184634f};
   float albedos[5];
   float mean = 0.0f;
-  for (int i = 0; i < 5; ++i) {
-    gray.layers.clearcoat_cosine = points[i];
-    albedos[i] = effective_albedo(gray, points[i]).x;
-    mean += 2.0f * weights[i] * points[i] * albedos[i];
+  for (int i = 0; i < kCosineNodes; ++i) {
+    gray.layers.clearcoat_cosine = kCosinePoints[i];
+    albedos[i] = effective_albedo(gray, kCosinePoints[i]).x;
+    mean += 2.0f * kCosineWeights[i] * kCosinePoints[i] * albedos[i];
   }
   if (mean <= 0.0f) return vec2(0.0f);
   // Least squares over light from a uniform sky
   vec2 projected = vec2(0.0f);
   vec3 products = vec3(0.0f);
-  for (int i = 0; i < 5; ++i) {
-    float s = 1.0f - points[i];
+  for (int i = 0; i < kCosineNodes; ++i) {
+    float s = 1.0f - kCosinePoints[i];
     vec2 basis = vec2(s - kMeanFirst, s * s * s * s * s - kMeanFifth);
-    float weight = weights[i] * points[i];
+    float weight = kCosineWeights[i] * kCosinePoints[i];
     projected += basis * (weight * (albedos[i] / mean - 1.0f));
     products += weight * vec3(basis.x * basis.x, basis.x * basis.y, basis.y * basis.y);
   }
@@ -120,10 +153,7 @@ LAMBENT_FN float albedo_towards(uint shape, float n_dot_l) {
   if (shape == 0u) return 1.0f;
   if ((shape >> 24u) == 0u) return layered_albedo_towards(shape, n_dot_l);
   Reflectance gray = gray_of_shape(shape);
-  float roughness = sqrt(gray.alpha);
-  float edge = gray.f90 - gray.f0.x;
-  float mean = gray.diffuse.x * (1.0f - gray.f0.x - edge * kMeanBaseSchlick) +
-               gray.f0.x * mean_ggx_albedo(roughness) + edge * mean_ggx_schlick(roughness);
+  float mean = mean_albedo(gray).x;
   return mean > 0.0f ? effective_albedo(gray, n_dot_l).x / mean : 1.0f;
 }
 

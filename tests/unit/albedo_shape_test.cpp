@@ -49,6 +49,44 @@ TEST(BaseAlbedo, IsTheIntegralOfTheBase) {
   }
 }
 
+TEST(MeanAlbedo, IsTheMeanOverTheCosine) {
+  for (const float roughness : {0.05f, 0.3f, 1.0f}) {
+    for (const Reflectance& surface : coated_surfaces(roughness)) {
+      vec3 mean(0.0f);
+      for (int i = 0; i < kSamples; ++i) {
+        const float cosine = (static_cast<float>(i) + 0.5f) / kSamples;
+        mean += effective_albedo(surface, cosine) * (2.0f * cosine / kSamples);
+      }
+      const vec3 found = mean_albedo(surface);
+      // The polynomials of albedos are good to 0.002
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], mean[c], 0.003f) << roughness;
+    }
+  }
+}
+
+TEST(BoundedAlbedo, BoundsTheMeanAndNotGrazingDirections) {
+  constexpr float kBound = 0.95f;
+  // The mean of smooth plastic is below the bound, its albedo at grazing angles above 1
+  const vec3 grazing = bounded_albedo(plastic(0.1f), 0.1f, kBound);
+  EXPECT_GT(grazing.x, 1.2f);
+  EXPECT_EQ(grazing, effective_albedo(plastic(0.1f), 0.1f));
+
+  Reflectance white = plastic(0.1f);
+  white.diffuse = vec3(1.0f);
+  ASSERT_GT(mean_albedo(white).x, 1.0f);
+  double mean = 0.0;
+  for (int i = 0; i < kSamples; ++i) {
+    const float cosine = (static_cast<float>(i) + 0.5f) / kSamples;
+    mean += 2.0 * cosine * bounded_albedo(white, cosine, kBound).x / kSamples;
+  }
+  EXPECT_NEAR(mean, kBound, 0.003);
+
+  const Reflectance matte = {vec3(1.0f), 1.0f, vec3(0.0f), 0.0f, no_layers()};
+  EXPECT_FLOAT_EQ(bounded_albedo(matte, 0.5f, kBound).x, kBound);
+  const Reflectance black = {vec3(0.0f), 1.0f, vec3(0.0f), 0.0f, no_layers()};
+  EXPECT_EQ(bounded_albedo(black, 0.5f, kBound), vec3(0.0f));
+}
+
 TEST(AlbedoTowards, HasAMeanOfOne) {
   for (const float roughness : {0.05f, 0.2f, 0.5f, 0.8f, 1.0f}) {
     for (const Reflectance& surface : coated_surfaces(roughness)) {
