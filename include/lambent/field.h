@@ -108,7 +108,7 @@ struct FieldSettings {
   int max_bounces = -1;
   /// Upper bound of the mean albedo of surfels over all directions, so that light always dies out,
   /// 0 to 0.99. Below the albedo of real surfaces, rooms become too dark.
-  float max_albedo = 0.99f;
+  float max_albedo = 0.95f;
 
   /// Samples of emissive triangles, and of point and spot lights where there are many, for a
   /// surfel's direct light, 1 to 64. Each costs a shadow ray.

@@ -25,7 +25,7 @@ struct ShadedHit {
 struct ShadeHitsSettings {
   float cone_width =
       0.0f;  ///< Width of a ray's cone per metre, which picks MIP levels; 0: full resolution.
-  float max_albedo = 1.0f;  ///< Albedo is clamped to this, 0 to 1.
+  float max_albedo = 1.0f;  ///< Bound of the mean albedo, 0 to 1.
   /// Samples of the light tree (of emissive triangles, and of lights where these are many) for each
   /// hit, >= 1; each costs a shadow ray.
   int emissive_samples = 1;
