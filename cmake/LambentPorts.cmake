@@ -2,7 +2,8 @@
 # The ports of the field's lookup to other shading languages, complete in LAMBENT_PORTS_DIR: where a port says
 # @LAMBENT_CONSTANTS@, it gets those constants of the lookup's headers that it names, in its own language.
 set(LAMBENT_PORTS_DIR ${PROJECT_BINARY_DIR}/ports)
-set(lambent_lookup_headers field/lookup/lookup.h field/probes/irradiance_encoding.h field/probes/probe_grid.h shared/packing.h)
+set(lambent_lookup_headers
+  field/lookup/lookup.h field/probes/irradiance_encoding.h field/probes/probe_grid.h shared/packing.h)
 list(TRANSFORM lambent_lookup_headers PREPEND ${PROJECT_SOURCE_DIR}/src/)
 
 # lambent_port(<file name> <declaration of a constant, where \\1 is its type, \\2 its name, \\3 its value>)

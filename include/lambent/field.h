@@ -107,7 +107,8 @@ struct FieldSettings {
   /// exact but not accelerated: each bounce costs an iteration of the solve.
   int max_bounces = -1;
   /// Upper bound of the mean albedo of surfels over all directions, so that light always dies out,
-  /// 0 to 0.99. Below the albedo of real surfaces, rooms become too dark.
+  /// 0 to 0.99. A bound below the albedo of the surfaces makes rooms too dark. Albedos of
+  /// hits that engines hand in are bounded one by one.
   float max_albedo = 0.95f;
 
   /// Samples of emissive triangles, and of point and spot lights where there are many, for a

@@ -63,13 +63,9 @@ void queue_direct_light(const LightDraws& draws, const Media& media, const GBuff
   const SkyReflector coats{surface.reflectance, frame, to_viewer, point.geometric_normal_ws,
                            shares};
   const SkyCandidate sky = sample_reflected_sky(sky_of(draws.world), coats, random);
-  ReflectedPair pair{sky.light.clearcoat, sky.light.coat};
+  const ReflectedPair pair{sky.light.clearcoat, sky.light.coat};
   if (pair.diffuse + pair.specular == vec3(0.0f)) return;
-  if (!media.empty()) {
-    const float passed = transmittance(media, point.position_ws, sky.direction_ws, infinity());
-    pair.diffuse *= passed;
-    pair.specular *= passed;
-  }
+  // Reflections see no fog, whether rays or samples find the sky
   pending.push_back({pixel, pair, LightSource::sky});
   shadows.push_back(shadow_ray(point.position_ws, point.geometric_normal_ws,
                                LightCandidate{sky.direction_ws, infinity(), vec3(1.0f), 0u}));

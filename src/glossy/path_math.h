@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How paths continue from the surfaces that they hit.
-#ifndef LAMBENT_GLOSSY_WAY_MATH_H
-#define LAMBENT_GLOSSY_WAY_MATH_H
+#ifndef LAMBENT_GLOSSY_PATH_MATH_H
+#define LAMBENT_GLOSSY_PATH_MATH_H
 
 #include "glossy/glossy_math.h"
 #include "raytracing/transmission_math.h"

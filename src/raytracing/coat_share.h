@@ -2,9 +2,10 @@
 // How a coat's light is split between rays of its own (src/glossy) and other sources, so that every
 // path of light counts once.
 //
-// Light other than emission reaches a coat by its rays, or else by the field. Emission is also part
-// of the direct light, which samples emitters: multiple importance sampling combines the two
-// estimates with weights that sum to 1 for each direction.
+// Light other than emission and the bright part of the sky reaches a coat by its rays, or else by
+// the field. These two are also part of the direct light, which samples emitters and the sky:
+// multiple importance sampling combines the two estimates with weights that sum to 1 for each
+// direction.
 #ifndef LAMBENT_RAYTRACING_COAT_SHARE_H
 #define LAMBENT_RAYTRACING_COAT_SHARE_H
 

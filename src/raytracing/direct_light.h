@@ -132,8 +132,9 @@ inline float target_of(const LightReceiver& receiver, LightCandidate light) {
   if (receiver.fog != nullptr) {
     return luminance(scattered_light(*receiver.fog, receiver.point.position_ws, light));
   }
-  if (receiver.reflector == nullptr)
+  if (receiver.reflector == nullptr) {
     return luminance(unoccluded_irradiance(receiver.point, receiver.shape, light));
+  }
   const Reflector& to = *receiver.reflector;
   const ReflectedPair pair = sampled_reflection(to.reflectance, to.frame, to.to_viewer,
                                                 receiver.point, light, to.shares, to.samples);

@@ -47,10 +47,12 @@ LAMBENT_FN ShadedHitRecord shaded_surface(Surface surface, vec3 direction_ws, fl
 }
 
 /// The record of a hit seen through glass that transmits this share of light. `weight`: that of a
-/// ray which a transmissive surface stopped although it might have passed, else 1.
+/// ray which a transmissive surface stopped although it might have passed, else 1: such a weight
+/// raises the albedo to `max_albedo` at most.
 LAMBENT_FN ShadedHitRecord seen_through_glass(ShadedHitRecord hit, vec3 share, float weight,
                                               float max_albedo) {
-  hit.albedo_over_pi = share * min(weight * hit.albedo_over_pi, vec3(max_albedo * kInvPi));
+  vec3 most = max(hit.albedo_over_pi, vec3(max_albedo * kInvPi));
+  hit.albedo_over_pi = share * min(weight * hit.albedo_over_pi, most);
   hit.radiance *= weight * share;
   return hit;
 }

@@ -197,7 +197,7 @@ LAMBENT_FN bool is_transmissive(Transmission transmission) {
 LAMBENT_FN vec3 straight_share(vec3 tint, Reflectance from_outside, float cosine) {
   vec3 share = tint * (vec3(1.0f) - fresnel(from_outside, abs(cosine)));
   if (!has_layers(from_outside.layers)) return share;
-  return share * passes_layers(from_outside.layers, abs(cosine));
+  return share * layers_transmittance(from_outside.layers, abs(cosine));
 }
 
 /// Probability with which a ray that crosses glass passes a surface that transmits this share.

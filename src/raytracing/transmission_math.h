@@ -60,7 +60,8 @@ LAMBENT_FN ThroughDraw draw_through(Transmission through, Reflectance reflectanc
     }
   } else {
     drawn.weight *= vec3(1.0f) - fresnel(reflectance, cosine);
-    if (has_layers(reflectance.layers)) drawn.weight *= passes_layers(reflectance.layers, v.z);
+    if (has_layers(reflectance.layers))
+      drawn.weight *= layers_transmittance(reflectance.layers, v.z);
   }
   if (goes_straight(through)) return drawn;
 

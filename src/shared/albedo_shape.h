@@ -48,8 +48,9 @@ const float kMeanFifth = 1.0f / 21.0f;
 
 // Nodes and weights of Gauss-Legendre quadrature over the cosine.
 const int kCosineNodes = 5;
-const float kCosinePoints[5] = {0.0469101f, 0.2307653f, 0.5f, 0.7692347f, 0.9530899f};
-const float kCosineWeights[5] = {0.1184634f, 0.2393143f, 0.2844444f, 0.2393143f, 0.1184634f};
+const float kCosinePoints[kCosineNodes] = {0.0469101f, 0.2307653f, 0.5f, 0.7692347f, 0.9530899f};
+const float kCosineWeights[kCosineNodes] = {0.1184634f, 0.2393143f, 0.2844444f, 0.2393143f,
+                                            0.1184634f};
 
 /// The mean of effective_albedo over light from a uniform sky: the share of the light that arrives
 /// which the surface reflects to all sides together.
@@ -73,10 +74,10 @@ LAMBENT_FN vec3 mean_albedo(Reflectance surface) {
 // Keeps the division by the mean albedo finite for black surfaces.
 const float kLeastMeanAlbedo = 1e-6f;
 
-/// effective_albedo(), scaled down where its mean would exceed `max_mean`. The mean alone decides
-/// whether light dies out from bounce to bounce. Towards grazing directions a smooth coat over a
-/// bright base has an albedo far above 1 in glTF's formulas (1.5 at a cosine of 0.1), which other
-/// directions make up for: a bound on each direction would lose that light.
+/// effective_albedo(), scaled down where its mean would exceed `max_mean`. On average, the
+/// mean alone decides whether light dies out from bounce to bounce. Towards grazing directions a
+/// smooth coat over a bright base has an albedo far above 1 in glTF's formulas (1.5 at a cosine of
+/// 0.1), which other directions make up for: a bound on each direction would lose that light.
 LAMBENT_FN vec3 bounded_albedo(Reflectance surface, float n_dot_v, float max_mean) {
   vec3 scale = min(vec3(1.0f), vec3(max_mean) / max(mean_albedo(surface), vec3(kLeastMeanAlbedo)));
   return effective_albedo(surface, n_dot_v) * scale;
@@ -175,6 +176,7 @@ struct SeenShape {
   float albedo;      ///< Directional albedo; 0 where albedo_towards() answers instead.
 };
 
+/// Finds what a viewer sees of an encoded shape; directions are unit vectors.
 LAMBENT_FN SeenShape seen_shape(uint shape, vec3 normal, vec3 to_viewer) {
   SeenShape seen = {shape, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
   float n_dot_v = dot(normal, to_viewer);
@@ -182,14 +184,18 @@ LAMBENT_FN SeenShape seen_shape(uint shape, vec3 normal, vec3 to_viewer) {
   Reflectance gray = gray_of_shape(shape);
   float base = base_albedo(gray, n_dot_v).x;
   float coat = specular_albedo(gray, n_dot_v).x;
-  if (base + coat <= 0.0f) seen.shape = 0u;
+  if (base + coat <= 0.0f) {
+    seen.shape = 0u;
+    return seen;
+  }
   gray.alpha = max(gray.alpha, kMinAlphaOfHits);
   seen.diffuse = gray.diffuse.x;
   seen.f0 = gray.f0.x;
   seen.f90 = gray.f90;
   seen.alpha = gray.alpha;
   seen.lambda = ggx_lambda(n_dot_v, gray.alpha);
-  seen.lobe_scale = coat / specular_albedo(gray, n_dot_v).x;
+  float widened = specular_albedo(gray, n_dot_v).x;
+  seen.lobe_scale = widened > 0.0f ? coat / widened : 0.0f;
   seen.albedo = base + coat;
   return seen;
 }

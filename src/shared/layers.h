@@ -64,23 +64,23 @@ LAMBENT_FN float clearcoat_transmittance(float clearcoat, float cosine) {
 LAMBENT_FN float clearcoat_transmittance(SurfaceLayers layers, float cosine) {
   return clearcoat_transmittance(layers.clearcoat, cosine);
 }
-LAMBENT_FN float mean_passes_clearcoat(SurfaceLayers layers) {
+LAMBENT_FN float mean_clearcoat_transmittance(SurfaceLayers layers) {
   return 1.0f - layers.clearcoat * clearcoat_fresnel(1.0f / 21.0f);
 }
 LAMBENT_FN float sheen_strength(SurfaceLayers layers) {
   return max(layers.sheen.x, max(layers.sheen.y, layers.sheen.z));
 }
-LAMBENT_FN float passes_sheen(SurfaceLayers layers, float cosine) {
+LAMBENT_FN float sheen_transmittance(SurfaceLayers layers, float cosine) {
   return 1.0f - sheen_strength(layers) * sheen_albedo(cosine, layers.sheen_roughness);
 }
-LAMBENT_FN float mean_passes_sheen(SurfaceLayers layers) {
+LAMBENT_FN float mean_sheen_transmittance(SurfaceLayers layers) {
   return 1.0f - sheen_strength(layers) * mean_sheen_albedo(layers.sheen_roughness);
 }
 
 /// Transmittance of both layers for light that passes them once, at this cosine to the normal.
-LAMBENT_FN float passes_layers(SurfaceLayers layers, float cosine) {
+LAMBENT_FN float layers_transmittance(SurfaceLayers layers, float cosine) {
   float share = 1.0f;
-  if (has_sheen(layers)) share *= passes_sheen(layers, cosine);
+  if (has_sheen(layers)) share *= sheen_transmittance(layers, cosine);
   if (has_clearcoat(layers)) share *= clearcoat_transmittance(layers, cosine);
   return share;
 }
@@ -91,21 +91,21 @@ LAMBENT_FN float even_share_under_clearcoat(SurfaceLayers layers, vec3 to_viewer
   if (!has_clearcoat(layers)) return 1.0f;
   return clearcoat_transmittance(layers, dot(layers.clearcoat_normal, to_viewer)) *
          clearcoat_transmittance(layers, dot(layers.clearcoat_normal, to_light)) /
-         mean_passes_clearcoat(layers);
+         mean_clearcoat_transmittance(layers);
 }
 
 /// Factor of both layers on the reflection of a Lambert surface under them.
 LAMBENT_FN float even_share_under_layers(SurfaceLayers layers, vec3 to_viewer, vec3 to_light) {
   float share = even_share_under_clearcoat(layers, to_viewer, to_light);
   if (!has_sheen(layers)) return share;
-  return share * passes_sheen(layers, to_viewer.z) * passes_sheen(layers, to_light.z) /
-         mean_passes_sheen(layers);
+  return share * sheen_transmittance(layers, to_viewer.z) *
+         sheen_transmittance(layers, to_light.z) / mean_sheen_transmittance(layers);
 }
 
 /// Factor of both layers on the reflection of a GGX coat under them.
 LAMBENT_FN float coat_share_under_layers(SurfaceLayers layers, vec3 to_viewer, vec3 to_light) {
   float share = 1.0f;
-  if (has_sheen(layers)) share = passes_sheen(layers, min(to_viewer.z, to_light.z));
+  if (has_sheen(layers)) share = sheen_transmittance(layers, min(to_viewer.z, to_light.z));
   if (!has_clearcoat(layers)) return share;
   float cosine =
       min(dot(layers.clearcoat_normal, to_viewer), dot(layers.clearcoat_normal, to_light));
@@ -134,15 +134,15 @@ LAMBENT_FN float mean_greater_schlick(float n_dot_v, float alpha) {
 /// sky; the latter's for a coat of this width. Under a sheen, whose albedo changes slowly, a coat's
 /// mean lies between that of a mirror and that of a Lambert surface.
 LAMBENT_FN float mean_even_share(SurfaceLayers layers, float n_dot_v) {
-  float share = has_sheen(layers) ? passes_sheen(layers, n_dot_v) : 1.0f;
+  float share = has_sheen(layers) ? sheen_transmittance(layers, n_dot_v) : 1.0f;
   return has_clearcoat(layers) ? share * clearcoat_transmittance(layers, layers.clearcoat_cosine)
                                : share;
 }
 LAMBENT_FN float mean_coat_share(SurfaceLayers layers, float n_dot_v, float alpha) {
   float share = 1.0f;
   if (has_sheen(layers)) {
-    float passes = passes_sheen(layers, n_dot_v);
-    share = min(passes, mix(passes, mean_passes_sheen(layers), alpha));
+    float passes = sheen_transmittance(layers, n_dot_v);
+    share = min(passes, mix(passes, mean_sheen_transmittance(layers), alpha));
   }
   if (!has_clearcoat(layers)) return share;
   float greater = mean_greater_schlick(max(layers.clearcoat_cosine, 0.0f), alpha);

@@ -116,6 +116,7 @@ TEST(Hostile, AHelloWithTheRequestIsLookedAtAsAnyOther) {
                                          other.substr(0, other.size() - 2),
                                          std::string(2 * kMaxClientMessageBytes + 2, '0')};
   std::vector<std::future<std::string>> answers;
+  answers.reserve(sent.size());
   for (const std::string& field : sent) {
     answers.push_back(std::async(std::launch::async, answer_to, field));
   }

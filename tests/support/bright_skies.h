@@ -21,7 +21,7 @@ inline Environment checkered_sky() {
   return sky;
 }
 
-/// A dim sky with a sun of about 2 degrees, which sends as much light as all the rest.
+/// A dim sky with a sun of almost 3 degrees, which sends as much light as all the rest.
 inline Environment sunny_sky() {
   Environment sky;
   sky.radiance = glm::vec3(1.0f);

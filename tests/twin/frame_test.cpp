@@ -2,6 +2,7 @@
 // Whole frames: what the device renders is what the processor does, on the same seeds and schedule.
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "compose/unlit.h"
 #include "lambent/field.h"
@@ -198,7 +199,10 @@ TEST_F(Frame, UnderAMapOfTheSkyIsTheSame) {
   scene.materials.resize(1);
   scene.materials[0].metallic = 1.0f;
   scene.materials[0].roughness = 0.4f;
+  // Each ball also shows the sky that the other one reflects
   test::add(scene, test::sphere(1.0f, 16, 0));
+  test::add(scene, test::sphere(1.0f, 16, 0),
+            glm::translate(glm::mat4(1.0f), glm::vec3(1.6f, 0.4f, -1.6f)));
   scene.materials[0].clearcoat = 1.0f;
   scene.materials[0].clearcoat_roughness = 0.3f;
   // Finer than pixels in the middle and coarser than lobes at the edge

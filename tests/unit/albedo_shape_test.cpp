@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "raytracing/shaded_hit.h"
+
 namespace lambent::albedo_shape_test {
 namespace {
 
@@ -150,6 +152,25 @@ TEST(ReflectedOverAlbedo, IsTheReflectionFunctionOfRoughCoats) {
       EXPECT_NEAR(found / expected, 1.0f, 0.02f) << cosine << ", " << i;
     }
   }
+}
+
+// So weak a coat has no light left in the eight bits of its shape.
+TEST(ReflectedOverAlbedo, IsFiniteForCoatsThatReflectAlmostNothing) {
+  const Reflectance faint = {vec3(0.5f), 0.04f, vec3(1e-6f), 1e-3f, no_layers()};
+  const uint shape = encode_albedo_shape(faint);
+  ASSERT_NE(shape, 0u);
+  EXPECT_NEAR(reflected(shape, direction_at(0.5f), direction_at(0.7f)), 1.0f, 0.01f);
+}
+
+TEST(SeenThroughGlass, LowersNoAlbedoThatIsHighTowardsTheViewerAlone) {
+  ShadedHitRecord hit = shaded_sky(vec3(0.0f));
+  hit.albedo_over_pi = vec3(1.3f * kInvPi);
+  const vec3 share(0.5f);
+  EXPECT_EQ(seen_through_glass(hit, share, 1.0f, 0.95f).albedo_over_pi, share * hit.albedo_over_pi);
+  EXPECT_EQ(seen_through_glass(hit, share, 2.0f, 0.95f).albedo_over_pi, share * hit.albedo_over_pi);
+  hit.albedo_over_pi = vec3(0.6f * kInvPi);
+  EXPECT_FLOAT_EQ(seen_through_glass(hit, share, 2.0f, 0.95f).albedo_over_pi.x,
+                  0.5f * 0.95f * kInvPi);
 }
 
 TEST(ReflectedOverAlbedo, WidensTheLobesOfMirrors) {

@@ -14,7 +14,7 @@
 #include "support/field_scenes.h"
 #include "support/hand_made.h"
 
-namespace lambent {
+namespace lambent::bright_sky_test {
 namespace {
 
 constexpr std::uint32_t kDirections = 100000;
@@ -143,4 +143,4 @@ TEST(BrightSky, IsReflectedByRoughCoatsWithoutSpecks) {
 }
 
 }  // namespace
-}  // namespace lambent
+}  // namespace lambent::bright_sky_test

@@ -213,7 +213,7 @@ TEST(Corrections, LearnAtOneSurfelOfEachRun) {
     const uint stride = training_stride(number);
     double sum = 0.0;
     for (uint point = 0; point < 4000; ++point) {
-      const uint surfel = trained_surfel(point, number, 1);
+      const uint surfel = training_surfel(point, number, 1);
       ASSERT_EQ(surfel / stride, point);
       sum += surfel % stride;
     }

@@ -37,18 +37,18 @@ struct CorrectionSampleRecord {
 LAMBENT_DEVICE_ARRAY(CorrectionSampleArray, CorrectionSampleRecord, 4)
 
 /// A surfel at which an update gathers light: its index among all surfels, and the ray that hit it.
-struct TrainedSurfelRecord {
+struct TrainingSurfelRecord {
   int probe;
   uint surfel;
   int ray;
   int ray_set;
 };
-LAMBENT_DEVICE_ARRAY(TrainedSurfelArray, TrainedSurfelRecord, 4)
+LAMBENT_DEVICE_ARRAY(TrainingSurfelArray, TrainingSurfelRecord, 4)
 
 /// Arguments of training_points, which makes a point from each surfel.
 struct TrainingPointsArguments {
   StoreArrays store;
-  TrainedSurfelArray trained;
+  TrainingSurfelArray trained;
   SurfelArray surfels;
   RaySetArray sets;
   TrainingPointArray points;

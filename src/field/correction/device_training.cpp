@@ -64,7 +64,7 @@ std::size_t DeviceTraining::bytes() const {
 
 void DeviceTraining::begin(std::span<const TrainingSurfel> surfels, uint number) {
   const vulkan::Device& device = field_.device();
-  std::vector<TrainedSurfelRecord> records;
+  std::vector<TrainingSurfelRecord> records;
   records.reserve(surfels.size());
   for (const TrainingSurfel& at : surfels) {
     records.push_back({at.probe, static_cast<uint>(at.probe * field_.surfel_stride() + at.ray),
@@ -72,7 +72,7 @@ void DeviceTraining::begin(std::span<const TrainingSurfel> surfels, uint number)
   }
   number_ = number;
   surfel_count_ = static_cast<std::uint32_t>(surfels.size());
-  trained_ = host_buffer<TrainedSurfelRecord>(device, records, "surfels to learn at");
+  trained_ = host_buffer<TrainingSurfelRecord>(device, records, "surfels to learn at");
   const std::size_t samples = kPointsPerSurfel * surfels.size() * field_.lookups_per_surfel();
   reserve<CorrectionSampleRecord>(device, samples, "samples to learn", samples_);
   field_.corrections().reserve(samples);

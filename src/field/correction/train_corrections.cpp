@@ -233,7 +233,7 @@ std::vector<TrainingSurfel> training_surfels(const ProbeData& data, std::span<co
   std::vector<TrainingSurfel> surfels(all / training_stride(number));
   std::size_t k = 0, first = 0;  // the place of a surfel's probe, and the probe's first surfel
   for (uint point = 0; point < surfels.size(); ++point) {
-    const std::size_t at = trained_surfel(point, number, data.settings.seed);
+    const std::size_t at = training_surfel(point, number, data.settings.seed);
     for (;; ++k) {
       const std::size_t rays = data.traces[probes[k]].rays->directions.size();
       if (at < first + rays) break;

@@ -51,7 +51,7 @@ LAMBENT_FN uint training_stride(uint number) {
 
 /// The surfel at which update `number` places its point `point`, as an index among the surfels of
 /// all probes of the update.
-LAMBENT_FN uint trained_surfel(uint point, uint number, uint seed) {
+LAMBENT_FN uint training_surfel(uint point, uint number, uint seed) {
   uint stride = training_stride(number);
   return point * stride +
          uint(training_random(point, number, kTrainingPicks, seed) * float(stride));

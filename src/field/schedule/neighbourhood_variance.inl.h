@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The variance in a probe's neighbourhood, in the common subset of C++ and GLSL. The includer
 // provides
-//   bool fetch_live(int probe)       whether the probe may be traced
+//   bool fetch_scheduled(int probe)       whether the probe may be traced
 //   float fetch_variance(int probe)  VarianceEstimate::variance
 // In C++, this file is included in the body of a struct that has these as members.
 
@@ -13,7 +13,7 @@ LAMBENT_FN float neighbourhood_variance(ProbeGrid grid, int probe) {
   for (int i = 0; i < kNeighbours; ++i) {
     int neighbour = neighbour_of(grid, coords, i);
     if (neighbour < 0) continue;
-    if (!fetch_live(neighbour)) continue;
+    if (!fetch_scheduled(neighbour)) continue;
     sum += fetch_variance(neighbour);
     ++count;
   }

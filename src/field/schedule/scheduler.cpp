@@ -147,7 +147,7 @@ void ProbeScheduler::refresh_deviation(const ProbeStore& store,
   struct Neighbourhood {
     std::span<const Entry> entries;
     std::span<const ProbeStatus> statuses;
-    bool fetch_live(int at) const { return entries[at].last_traced != kNotScheduled; }
+    bool fetch_scheduled(int at) const { return entries[at].last_traced != kNotScheduled; }
     float fetch_variance(int at) const { return statuses[at].variance; }
 #include "field/schedule/neighbourhood_variance.inl.h"
   } near = {entries_, statuses};

@@ -284,7 +284,8 @@ SolveResult solve_bounces(const TransportOperator& transport, std::span<const fl
     add_scaled(image, -1.0f, solution, residual);
 
     // Compute the contraction: the ratio of the change of the image to the change of its argument.
-    // In the first iteration, only its bound by the largest albedo and blend weight is known
+    // In the first iteration, only an estimate by the bound of mean albedos and the blend weight is
+    // known
     if (result.iterations > 1) {
       WorkingIrradiance residual_change(size), image_change(size), change(size);
       add_scaled(residual, -1.0f, previous_residual, residual_change);

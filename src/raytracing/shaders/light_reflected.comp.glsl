@@ -90,8 +90,8 @@ void main() {
           SkyReflector(surface.reflectance, frame, receiver.to_viewer, point.geometric_normal_ws,
                        CoatShares(surface.coat_share, surface.clearcoat_share));
       SkyCandidate sky = sample_reflected_sky(args.scene.at[0].environment, coats, random);
-      float passed = transmittance(args, point.position_ws, sky.direction_ws, infinity());
-      pair = ReflectedPair(passed * sky.light.clearcoat, passed * sky.light.coat);
+      // Reflections see no fog, whether rays or samples find the sky
+      pair = ReflectedPair(sky.light.clearcoat, sky.light.coat);
       if (pair.diffuse + pair.specular != vec3(0.0f)) {
         ray = shadow_ray(point, LightCandidate(sky.direction_ws, infinity(), vec3(1.0f), 0u));
       }

@@ -68,9 +68,9 @@ LAMBENT_FN SkyCandidate sample_reflected_sky(SkyRef sky, SkyReflector at,
       chosen.direction_ws = drawn.direction_ws;
       chosen.light = light;
       chosen_target = target;
-      choice = choice / share;
+      choice = min(choice / share, kLargestUniform);
     } else {
-      choice = (choice - share) / (1.0f - share);
+      choice = min((choice - share) / (1.0f - share), kLargestUniform);
     }
   }
   if (sum <= 0.0f) return chosen;

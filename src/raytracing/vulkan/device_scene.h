@@ -2,9 +2,9 @@
 // A scene in a device's memory, as kernels read it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <span>
 #include <string>
@@ -36,7 +36,8 @@ class DeviceTable {
     } else {
       std::size_t first = 0, last = records.size();
       const auto same = [&](std::size_t i) {
-        return i < records_.size() && std::memcmp(&records_[i], &records[i], sizeof(Record)) == 0;
+        return i < records_.size() &&
+               std::ranges::equal(bytes_of(records_[i]), bytes_of(records[i]));
       };
       while (first < last && same(first)) ++first;
       while (last > first && same(last - 1)) --last;
@@ -47,6 +48,10 @@ class DeviceTable {
   }
 
  private:
+  static std::span<const std::byte> bytes_of(const Record& record) {
+    return std::as_bytes(std::span(&record, 1));
+  }
+
   std::vector<Record> records_;  // copy of the device's contents
   vulkan::Buffer buffer_;
 };

@@ -121,9 +121,10 @@ LAMBENT_DEVICE_ARRAY(LightTreeArray, LightTreeNode, 4)
 
 /// A latitude-longitude map of radiance.
 struct EnvironmentMapRecord {
-  Vec3Array texels;  ///< Rows from the top; coarser levels; those of the map without bright part.
-  int width;         ///< [texels]; 0: there is none.
-  int height;        ///< [texels]
+  /// Rows from the top; after them, its coarser levels, and then those of its dim part.
+  Vec3Array texels;
+  int width;   ///< [texels]; 0: there is none.
+  int height;  ///< [texels]
 };
 
 /// See Environment in scene.h.

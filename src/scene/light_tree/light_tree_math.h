@@ -26,8 +26,8 @@ struct LightTreeNode {
   float cos_spread;  ///< Cosine of that cone's half angle.
   float sin_spread;  ///< Sine of that cone's half angle.
   float intensity;   ///< Sum of their intensities along their axes [W/sr], luminance.
-  float
-      mean_relative_intensity;  ///< Mean of their intensity over all directions, over `intensity`.
+  /// Mean of their intensity over all directions, over `intensity`.
+  float mean_relative_intensity;
   float cos_emission;  ///< Cosine of the largest angle from its axis at which a light emits.
   uint both_sides;     ///< 1: some also emit in the opposite direction.
   uint link;           ///< Children or light, as above.

@@ -19,7 +19,8 @@ LAMBENT_FN vec3 sample_bright_map(MapRef map, float limit, vec2 uv) {
 }
 
 /// The weight with which a texel's area is drawn: its solid angle times the mean luminance of the
-/// bright part. Interpolation brings light of its neighbours there, in shares of 1, 6 and 1.
+/// bright part. Interpolation brings light of its neighbours there: along each axis, the texels
+/// before it, at it and after it have shares of 1/8, 6/8 and 1/8.
 LAMBENT_FN float bright_weight(MapRef map, float limit, int x, int y) {
   float sum = 0.0f;
   for (int dy = -1; dy <= 1; ++dy) {

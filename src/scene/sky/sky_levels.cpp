@@ -10,9 +10,9 @@
 namespace lambent {
 namespace {
 
-// Luminance above which the sky counts as bright, over its mean luminance. Less than half of a sky
-// is brighter than that: where much of the light comes from a small part, its rays find it by
-// chance.
+// Luminance above which the sky counts as bright, over its mean luminance. At most half of a map
+// can be brighter than twice the mean, so that what counts as bright is always the smaller part,
+// which rays of wide lobes find by chance.
 constexpr float kBrightSky = 2.0f;
 
 /// How much of texel `index` lies within `low` to `high` [texels].

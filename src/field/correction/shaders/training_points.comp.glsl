@@ -15,7 +15,7 @@ layout(push_constant, scalar) uniform Push {
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
-  TrainedSurfelRecord trained = args.trained.at[args.first + i];
+  TrainingSurfelRecord trained = args.trained.at[args.first + i];
   SurfelRecord surfel = args.surfels.at[trained.surfel];
   vec3 direction = args.sets.at[trained.ray_set].directions.at[trained.ray];
   float gi_share = surfel.albedo_over_pi != vec3(0.0) ? surfel.gi_share : 0.0;

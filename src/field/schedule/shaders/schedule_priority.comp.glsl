@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform Push {
 shared uint bins[kPriorityBins];
 shared float deviations[kChunkProbes];  // of probes that have not converged, else 0
 
-bool fetch_live(int probe) { return args.probes.states.at[probe] != kProbeOff; }
+bool fetch_scheduled(int probe) { return args.probes.states.at[probe] != kProbeOff; }
 float fetch_variance(int probe) { return args.variability.at[probe].known.variance; }
 #include "field/schedule/neighbourhood_variance.inl.h"
 
@@ -23,7 +23,7 @@ int bin_of(int probe, out float deviation) {
   uint last_traced = args.variability.at[probe].last_traced;
   int volume = volume_of(args.grids, probe);
   float reduction = 0.0;
-  if (fetch_live(probe)) {
+  if (fetch_scheduled(probe)) {
     float samples = args.probes.standing.at[probe].samples;
     float mean_around = neighbourhood_variance(args.grids.at[volume], probe);
     float held = probe_deviation(fetch_variance(probe), mean_around);
