@@ -4,6 +4,7 @@
 #define LAMBENT_RAYTRACING_EMITTER_SAMPLING_H
 
 #include "raytracing/coat_share.h"
+#include "raytracing/reservoir.h"
 #include "raytracing/shadow_rays.h"
 #include "scene/light_tree/light_tree_math.h"
 #include "shared/random.h"
@@ -136,43 +137,28 @@ LAMBENT_FN uint candidates_per_sample(uint candidates, uint samples) {
   return max(candidates / samples, kMinCandidates);
 }
 
-/// Resampled importance sampling of one out of a stream of candidates. Talbot, Cline and Egbert,
-/// "Importance Resampling for Global Illumination", EGSR 2005; with one random number for all of
-/// its choices.
+/// Resampled importance sampling of one light out of a stream of candidates.
 struct Resampling {
   LightCandidate chosen;
-  float chosen_target;
-  float sum;  ///< Sum of the targets so far.
-  float u;    ///< Uniform number that decides the next choice.
+  Reservoir reservoir;
 };
 
 LAMBENT_FN Resampling begin_resampling(float u) {
-  Resampling resampling = {no_candidate(), 0.0f, 0.0f, u};
+  Resampling resampling = {no_candidate(), begin_reservoir(u)};
   return resampling;
 }
 
 /// Offers a candidate, which is chosen with a probability in proportion to its target.
 LAMBENT_FN void offer(LAMBENT_INOUT(Resampling) resampling, LightCandidate candidate,
                       float target) {
-  if (!(target > 0.0f)) return;
-  resampling.sum += target;
-  float share = target / resampling.sum;
-  if (resampling.u < share) {
-    resampling.chosen = candidate;
-    resampling.chosen_target = target;
-    resampling.u = resampling.u / share;
-  } else {
-    resampling.u = (resampling.u - share) / (1.0f - share);
-  }
+  if (accepts(resampling.reservoir, target)) resampling.chosen = candidate;
 }
 
 /// The chosen candidate, weighted such that its expected light is that of all candidates together,
 /// times `scale`.
 LAMBENT_FN LightCandidate resampled(Resampling resampling, float scale) {
   LightCandidate candidate = resampling.chosen;
-  if (resampling.sum > 0.0f) {
-    candidate.perpendicular_irradiance *= scale * resampling.sum / resampling.chosen_target;
-  }
+  candidate.perpendicular_irradiance *= scale * resampling_weight(resampling.reservoir);
   return candidate;
 }
 

@@ -30,14 +30,12 @@ LAMBENT_FN vec3 sky_radiance(EnvironmentRef environment, vec3 direction_ws) {
 LAMBENT_FN vec3 sky_radiance_in_cone(SkyRef sky, vec3 direction_ws, float angle) {
   EnvironmentRef environment = environment_of(sky);
   if (environment.map.width == 0) return environment.radiance;
-  float texels = angle * float(environment.map.height) * kInvPi;
-  if (texels <= 1.0f) return sky_radiance(environment, direction_ws);
-  int coarsest = map_level_count(environment.map.height) - 1;
-  float level = min(log2(texels), float(coarsest));
-  int finer = min(int(level), coarsest);
-  int coarser = min(finer + 1, coarsest);
+  BlendedLevels levels = levels_of_cone(environment.map.height, angle);
   vec2 uv = latitude_longitude_from_direction(direction_ws, environment.rotation);
-  vec3 radiance = mix(sample_environment_map(map_level(sky, finer), uv),
-                      sample_environment_map(map_level(sky, coarser), uv), level - float(finer));
+  vec3 radiance = sample_environment_map(map_level(sky, levels.finer), uv);
+  if (levels.fraction > 0.0f) {
+    vec3 coarser = sample_environment_map(map_level(sky, levels.coarser), uv);
+    radiance = mix(radiance, coarser, levels.fraction);
+  }
   return environment.radiance * radiance;
 }

@@ -66,5 +66,22 @@ LAMBENT_FN int map_level_size(int size, int level) {
   return max(size >> level, 1);
 }
 
+/// Two levels of a map, and the weight of the coarser one.
+struct BlendedLevels {
+  int finer;
+  int coarser;
+  float fraction;
+};
+
+/// The levels of a map of this height [texels] that a cone of this angle [rad] blends.
+LAMBENT_FN BlendedLevels levels_of_cone(int height, float angle) {
+  int coarsest = map_level_count(height) - 1;
+  float texels = angle * float(height) * kInvPi;
+  float level = clamp(log2(max(texels, 1.0f)), 0.0f, float(coarsest));
+  int finer = min(int(level), coarsest);
+  BlendedLevels levels = {finer, min(finer + 1, coarsest), level - float(finer)};
+  return levels;
+}
+
 LAMBENT_END
 #endif

@@ -9,8 +9,6 @@
 #include "lambent/renderer.h"
 #include "reference/path_tracer.h"
 #include "support/bright_skies.h"
-#include "support/field_scenes.h"
-#include "support/hand_made.h"
 
 namespace lambent::bright_sky_reference_test {
 namespace {
@@ -23,26 +21,9 @@ struct Coat {
 
 class BrightSkyReference : public testing::TestWithParam<Coat> {};
 
-/// A metal ball, which reflects the sky alone.
-test::Stage ball(const Coat& coat) {
-  Scene scene;
-  scene.materials.resize(1);
-  scene.materials[0].metallic = 1.0f;
-  scene.materials[0].roughness = coat.roughness;
-  scene.materials[0].clearcoat = coat.clearcoat;
-  scene.materials[0].clearcoat_roughness = 0.25f;
-  test::add(scene, test::sphere(1.0f, 48, 0));
-  scene.environment = test::sunny_sky();
-  scene.cameras.push_back(look_at({0.0f, 0.3f, 4.0f}, {0.0f, 0.0f, 0.0f}, 0.6f));
-  return test::Stage(std::move(scene));
-}
-
 TEST_P(BrightSkyReference, IsReflectedWithAllOfItsLight) {
-  const test::Stage stage = ball(GetParam());
-  FieldSettings few;
-  few.probe_count = glm::ivec3(3);
-  few.rays_per_probe = 64;
-  const IrradianceField field = test::make_field(stage, few, 2);
+  const test::Stage stage = test::ball_under_the_sun(GetParam().roughness, GetParam().clearcoat);
+  const IrradianceField field = test::field_of_ball(stage);
   FrameSettings frame;
   frame.width = frame.height = 48;
   frame.samples = 32;

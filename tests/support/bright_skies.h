@@ -2,7 +2,11 @@
 // Skies with small parts that are much brighter than the rest.
 #pragma once
 
+#include <utility>
+
 #include "lambent/scene.h"
+#include "support/field_scenes.h"
+#include "support/hand_made.h"
 
 namespace lambent::test {
 
@@ -34,6 +38,28 @@ inline Environment sunny_sky() {
   }
   sky.rotation = 0.7f;
   return sky;
+}
+
+/// A ball of metal, with a clearcoat or without, under a sun that is part of the sky.
+inline Stage ball_under_the_sun(float roughness, float clearcoat) {
+  Scene scene;
+  scene.materials.resize(1);
+  scene.materials[0].metallic = 1.0f;
+  scene.materials[0].roughness = roughness;
+  scene.materials[0].clearcoat = clearcoat;
+  scene.materials[0].clearcoat_roughness = 0.25f;
+  add(scene, sphere(1.0f, 48, 0));
+  scene.environment = sunny_sky();
+  scene.cameras.push_back(look_at({0.0f, 0.3f, 4.0f}, {0.0f, 0.0f, 0.0f}, 0.6f));
+  return Stage(std::move(scene));
+}
+
+/// A field for it, which convex metal hardly reads.
+inline IrradianceField field_of_ball(const Stage& stage) {
+  FieldSettings few;
+  few.probe_count = glm::ivec3(3);
+  few.rays_per_probe = 64;
+  return make_field(stage, few, 2);
 }
 
 }  // namespace lambent::test

@@ -11,8 +11,6 @@
 #include "shared/random.h"
 #include "shared/sampling.h"
 #include "support/bright_skies.h"
-#include "support/field_scenes.h"
-#include "support/hand_made.h"
 
 namespace lambent::bright_sky_test {
 namespace {
@@ -101,28 +99,11 @@ TEST(BrightSky, FollowsEditsOfTheMap) {
   EXPECT_FALSE(sky.has_bright_part());
 }
 
-/// A ball of rough metal, with a clearcoat or without, under a sun that is part of the sky.
-test::Stage ball_under_the_sun(float clearcoat) {
-  Scene scene;
-  scene.materials.resize(1);
-  scene.materials[0].metallic = 1.0f;
-  scene.materials[0].roughness = 0.4f;
-  scene.materials[0].clearcoat = clearcoat;
-  scene.materials[0].clearcoat_roughness = 0.25f;
-  test::add(scene, test::sphere(1.0f, 48, 0));
-  scene.environment = test::sunny_sky();
-  scene.cameras.push_back(look_at({0.0f, 0.3f, 4.0f}, {0.0f, 0.0f, 0.0f}, 0.6f));
-  return test::Stage(std::move(scene));
-}
-
 // By chance few rays of rough coats find a small sun, and each that does would be a speck.
 TEST(BrightSky, IsReflectedByRoughCoatsWithoutSpecks) {
   for (const float clearcoat : {0.0f, 1.0f}) {
-    const test::Stage stage = ball_under_the_sun(clearcoat);
-    FieldSettings few;
-    few.probe_count = glm::ivec3(3);
-    few.rays_per_probe = 64;
-    const IrradianceField field = test::make_field(stage, few, 2);
+    const test::Stage stage = test::ball_under_the_sun(0.4f, clearcoat);
+    const IrradianceField field = test::field_of_ball(stage);
     FrameSettings settings = quality_settings(Quality::interactive);
     settings.width = settings.height = 64;
     settings.gather_rays = 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "raytracing/coat_share.h"
+#include "raytracing/reservoir.h"
 #include "scene/environment_sampling.h"
 #include "shared/brdf.h"
 #include "shared/random.h"

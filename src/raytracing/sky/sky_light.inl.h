@@ -53,28 +53,16 @@ LAMBENT_FN SkyCandidate sample_reflected_sky(SkyRef sky, SkyReflector at,
   SkyCandidate chosen = {vec3(0.0f), {vec3(0.0f), vec3(0.0f)}};
   if (bright_cell_count(sky) == 0u) return chosen;
   if (at.shares.coat <= 0.0f && at.shares.clearcoat <= 0.0f) return chosen;
-  float sum = 0.0f;
-  float chosen_target = 0.0f;
-  float choice = next_uniform(random);
+  Reservoir reservoir = begin_reservoir(next_uniform(random));
   for (uint i = 0u; i < kSkyCandidates; ++i) {
     float u = (float(i) + next_uniform(random)) / float(kSkyCandidates);
     BrightSkySample drawn = sample_bright_sky(sky, u, next_uniform2(random));
     ReflectedSky light = reflected_sky(at, drawn);
-    float target = luminance(light.coat + light.clearcoat);
-    if (!(target > 0.0f)) continue;
-    sum += target;
-    float share = target / sum;
-    if (choice < share) {
-      chosen.direction_ws = drawn.direction_ws;
-      chosen.light = light;
-      chosen_target = target;
-      choice = min(choice / share, kLargestUniform);
-    } else {
-      choice = min((choice - share) / (1.0f - share), kLargestUniform);
-    }
+    if (!accepts(reservoir, luminance(light.coat + light.clearcoat))) continue;
+    chosen.direction_ws = drawn.direction_ws;
+    chosen.light = light;
   }
-  if (sum <= 0.0f) return chosen;
-  float scale = sum / (chosen_target * float(kSkyCandidates));
+  float scale = resampling_weight(reservoir) / float(kSkyCandidates);
   chosen.light.coat *= scale;
   chosen.light.clearcoat *= scale;
   return chosen;

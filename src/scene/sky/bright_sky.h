@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sky's map in two parts: a dim one, which rays of coats find without much noise, and what is
-// brighter (a sun, windows, soft boxes), which is sampled as a light.
+// brighter (a sun, windows, soft boxes), which is sampled as a light. The reference draws from the
+// whole map, by EnvironmentDistribution of scene/environment_sampling.h.
 #ifndef LAMBENT_SCENE_BRIGHT_SKY_H
 #define LAMBENT_SCENE_BRIGHT_SKY_H
 

@@ -92,15 +92,12 @@ LAMBENT_FN SkySeen sky_seen(SkyRef sky, vec3 direction_ws, float angle) {
     seen.bright = environment.radiance * bright;
     seen.density = bright_density(map, bright_weight(map, limit, x, y) / bright_total(sky), uv.y);
   }
-  float texels = angle * float(map.height) * kInvPi;
-  int coarsest = map_level_count(map.height) - 1;
-  float level = clamp(log2(max(texels, 1.0f)), 0.0f, float(coarsest));
-  int finer = min(int(level), coarsest);
-  int coarser = min(finer + 1, coarsest);
-  vec3 dim = finer == 0 ? sample_environment_map(map, uv) - bright
-                        : sample_environment_map(dim_level(sky, finer), uv);
-  if (level > float(finer)) {
-    dim = mix(dim, sample_environment_map(dim_level(sky, coarser), uv), level - float(finer));
+  BlendedLevels levels = levels_of_cone(map.height, angle);
+  vec3 dim = levels.finer == 0 ? sample_environment_map(map, uv) - bright
+                               : sample_environment_map(dim_level(sky, levels.finer), uv);
+  if (levels.fraction > 0.0f) {
+    vec3 coarser = sample_environment_map(dim_level(sky, levels.coarser), uv);
+    dim = mix(dim, coarser, levels.fraction);
   }
   seen.dim = environment.radiance * max(dim, vec3(0.0f));
   return seen;
