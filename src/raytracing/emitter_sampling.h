@@ -4,11 +4,11 @@
 #define LAMBENT_RAYTRACING_EMITTER_SAMPLING_H
 
 #include "raytracing/coat_share.h"
-#include "raytracing/reservoir.h"
 #include "raytracing/shadow_rays.h"
 #include "scene/light_tree/light_tree_math.h"
 #include "shared/random.h"
 #include "shared/rays.h"
+#include "shared/reservoir.h"
 #include "shared/sampling.h"
 #include "shared/spherical_triangle.h"
 

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "raytracing/coat_share.h"
-#include "raytracing/reservoir.h"
 #include "scene/environment_sampling.h"
 #include "shared/brdf.h"
 #include "shared/random.h"
+#include "shared/reservoir.h"
 #include "shared/sampling.h"
 
 namespace lambent {

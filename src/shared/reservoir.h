@@ -2,8 +2,8 @@
 // Based on: Talbot, Cline and Egbert, "Importance Resampling for Global Illumination", EGSR 2005.
 // Resampled importance sampling of one out of a stream of candidates, with one random number for
 // all of its choices.
-#ifndef LAMBENT_RAYTRACING_RESERVOIR_H
-#define LAMBENT_RAYTRACING_RESERVOIR_H
+#ifndef LAMBENT_SHARED_RESERVOIR_H
+#define LAMBENT_SHARED_RESERVOIR_H
 
 #include "shared/random.h"
 
