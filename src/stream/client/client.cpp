@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stream/client/client.h"
 
-#include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/ssl.hpp>
+#include <boost/asio/ssl/context.hpp>
 #include <boost/beast/core.hpp>
-#include <boost/beast/ssl.hpp>
 #include <boost/beast/websocket.hpp>
-#include <boost/beast/websocket/ssl.hpp>
-#include <type_traits>
 #include <utility>
 
 #include "stream/broker/broker.h"
 #include "stream/protocol/hello_header.h"
+#include "stream/transport/byte_stream.h"
 
 namespace lambent::stream {
 namespace {
@@ -22,8 +19,6 @@ namespace {
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 using boost::asio::ip::tcp;
-using PlainStream = beast::tcp_stream;
-using TlsStream = beast::ssl_stream<PlainStream>;
 
 /// The parts that outlive the stream.
 struct Base {
@@ -31,39 +26,26 @@ struct Base {
   boost::asio::ssl::context tls{boost::asio::ssl::context::tls_client};
 };
 
-template <class Stream>
 class BeastClient : private Base, public Client {
  public:
-  static constexpr bool kTls = std::is_same_v<Stream, TlsStream>;
-
   explicit BeastClient(const ConnectSettings& settings)
-      : settings_(settings), socket_([this] {
-          if constexpr (kTls)
-            return websocket::stream<Stream>(io, tls);
-          else
-            return websocket::stream<Stream>(io);
-        }()) {}
+      : settings_(settings), socket_(ByteStream(tcp::socket(io), settings.tls ? &tls : nullptr)) {}
 
   Expected<void> open(const std::optional<Hello>& hello) {
-    if constexpr (kTls) {
+    if (settings_.tls) {
       if (const auto trusted = trust(); !trusted) return trusted;
     }
     tcp::resolver resolver(io);
     beast::error_code error;
     const auto found = resolver.resolve(settings_.host, std::to_string(settings_.port), error);
     if (error) return failed("has no address", error);
-    auto& lowest = beast::get_lowest_layer(socket_);
-    lowest.expires_after(settings_.timeout);
-    error =
-        wait([&](auto done) { lowest.async_connect(found, [done](auto e, auto) { done(e); }); });
+    ByteStream& stream = socket_.next_layer();
+    stream.expires_after(settings_.timeout);
+    error = wait([&](auto done) { stream.async_connect(found, done); });
     if (error) return failed("does not answer", error);
-    lowest.socket().set_option(tcp::no_delay(true), error);
-    if constexpr (kTls) {
-      error = wait([&](auto done) {
-        socket_.next_layer().async_handshake(boost::asio::ssl::stream_base::client, done);
-      });
-      if (error) return failed("cannot be trusted", error);
-    }
+    stream.socket().set_option(tcp::no_delay(true), error);
+    error = wait([&](auto done) { stream.async_handshake(beast::role_type::client, done); });
+    if (error) return failed("cannot be trusted", error);
     socket_.set_option(websocket::stream_base::decorator([&](websocket::request_type& request) {
       if (!settings_.origin.empty()) request.set(beast::http::field::origin, settings_.origin);
       if (hello) request.set(kHelloField, hello_header(*hello));
@@ -74,7 +56,7 @@ class BeastClient : private Base, public Client {
     websocket::response_type answer;
     error = wait([&](auto done) { socket_.async_handshake(answer, host, "/stream", done); });
     if (error) return failed("refused the connection", error);
-    lowest.expires_never();
+    stream.expires_never();
     // A server or a proxy may not support the header field
     if (hello && answer[kHelloField] != kHelloTaken) return send(*hello);
     return {};
@@ -96,7 +78,7 @@ class BeastClient : private Base, public Client {
     run_until(written, settings_.timeout);
     if (!written) {
       // The write must not access the bytes after this function has returned
-      beast::get_lowest_layer(socket_).close();
+      socket_.next_layer().close();
       run_until(written, settings_.timeout);
       return fail("", name(), "does not read what it is sent", Error::Kind::failed);
     }
@@ -136,7 +118,7 @@ class BeastClient : private Base, public Client {
     socket_.async_close(websocket::close_code::normal, [&](beast::error_code) { closed = true; });
     run_until(closed, settings_.timeout);
     if (!closed) {
-      beast::get_lowest_layer(socket_).close();
+      socket_.next_layer().close();
       run_until(closed, settings_.timeout);
     }
     ended_ = websocket::error::closed;
@@ -151,17 +133,13 @@ class BeastClient : private Base, public Client {
 
   /// Requires a trusted certificate for the host's name.
   Expected<void> trust() {
-    namespace ssl = boost::asio::ssl;
     beast::error_code error;
     tls.set_default_verify_paths(error);
     if (!settings_.authority.empty()) {
       tls.load_verify_file(settings_.authority, error);
       if (error) return fail(settings_.authority, "", "cannot be read: " + error.message());
     }
-    auto& stream = socket_.next_layer();
-    stream.set_verify_mode(ssl::verify_peer);
-    stream.set_verify_callback(ssl::host_name_verification(settings_.host));
-    if (SSL_set_tlsext_host_name(stream.native_handle(), settings_.host.c_str()) != 1) {
+    if (!socket_.next_layer().expect_server(settings_.host)) {
       return fail("", settings_.host, "is no name of a host");
     }
     return {};
@@ -200,25 +178,18 @@ class BeastClient : private Base, public Client {
 
   const ConnectSettings settings_;
   beast::flat_buffer buffer_;
-  websocket::stream<Stream> socket_;
+  websocket::stream<ByteStream> socket_;
   bool reading_ = false, arrived_ = false, woken_ = false;
   beast::error_code ended_;
 };
-
-template <class Stream>
-Expected<std::unique_ptr<Client>> open_client(const ConnectSettings& settings,
-                                              const std::optional<Hello>& hello) {
-  auto client = std::make_unique<BeastClient<Stream>>(settings);
-  if (const auto opened = client->open(hello); !opened) return tl::unexpected(opened.error());
-  return client;
-}
 
 }  // namespace
 
 Expected<std::unique_ptr<Client>> Client::connect(const ConnectSettings& settings,
                                                   const std::optional<Hello>& hello) {
-  return settings.tls ? open_client<TlsStream>(settings, hello)
-                      : open_client<PlainStream>(settings, hello);
+  auto client = std::make_unique<BeastClient>(settings);
+  if (const auto opened = client->open(hello); !opened) return tl::unexpected(opened.error());
+  return client;
 }
 
 Expected<Joined> join(const ConnectSettings& settings, const Hello& hello) {

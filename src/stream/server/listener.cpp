@@ -4,7 +4,8 @@
 #include <netinet/tcp.h>
 
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/ssl.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/ssl/context.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <exception>
 #include <thread>
@@ -164,13 +165,7 @@ class BeastListener : public Listener {
     ErrorCode ignored;
     socket.set_option(tcp::no_delay(true), ignored);
     keep_short(socket);
-    PlainStream stream(std::move(socket));
-    if (context_.tls) {
-      TlsStream tls(std::move(stream), *context_.tls);
-      std::make_shared<HttpConnection<TlsStream>>(context_, std::move(tls))->start();
-    } else {
-      std::make_shared<HttpConnection<PlainStream>>(context_, std::move(stream))->start();
-    }
+    answer_connection(context_, ByteStream(std::move(socket), context_.tls.get()));
   }
 
   /// Checks deadlines and tokens, and completes `drain`.
