@@ -25,7 +25,7 @@
 #include "lambent/memory_check.h"
 #include "lambent/output.h"
 #include "lambent/progress_bar.h"
-#include "lambent/stage.h"
+#include "lambent/scene_options.h"
 #include "lambent/step.h"
 #include "lambent/threads.h"
 #include "lambent/validators.h"
@@ -35,7 +35,7 @@ namespace lambent::cli {
 namespace {
 
 struct BakeOptions {
-  StageOptions stage;
+  SceneOptions scene;
   FieldOptions field;
   std::string output;
   std::string stats;
@@ -61,8 +61,8 @@ Expected<void> check(const BakeOptions& options) {
     if (!fine) return fine;
   }
   CommandFiles files;
-  files.reads_scene(options.stage.scene);
-  files.reads(options.stage.light.environment, "--environment");
+  files.reads_scene(options.scene.file);
+  files.reads(options.scene.light.environment, "--environment");
   files.writes(options.output, "-o");
   files.writes(options.stats, "--stats");
   files.writes(options.checkpoint, "--checkpoint");
@@ -98,7 +98,7 @@ Expected<void> prepare(const BakeOptions& options, const Job& job, Baking& bakin
     return tl::unexpected(fine.error());
   }
   begin_step("reading the scene");
-  Expected<Scene> scene = open_stage(options.stage);
+  Expected<Scene> scene = open_lit_scene(options.scene);
   if (!scene) return tl::unexpected(scene.error());
   baking.scene = std::move(*scene);
   if (options.time_s) {
@@ -110,9 +110,9 @@ Expected<void> prepare(const BakeOptions& options, const Job& job, Baking& bakin
   begin_step("preparing the scene for rays");
   baking.world = std::make_unique<World>(baking.scene);
   World& world = *baking.world;
-  const Expected<View> view = choose_view(options.stage, world, FirstViewSettings().aspect);
+  const Expected<View> view = choose_view(options.scene, world, FirstViewSettings().aspect);
   if (!view) return tl::unexpected(view.error());
-  const auto light = add_first_light(options.stage.light, view->camera, baking.scene, world);
+  const auto light = add_first_light(options.scene.light, view->camera, baking.scene, world);
   if (!light) return tl::unexpected(light.error());
   tell("light: " + *light);
   const auto settings = field_settings(options.field, baking.scene, options.seed, options.bounces);
@@ -288,7 +288,7 @@ void add_bake(CLI::App& app, Run& run) {
       ->check(number(0.0, kMaxTime))
       ->capture_default_str()
       ->type_name("S");
-  add_scene_options(*command, o->stage);
+  add_scene_options(*command, o->scene);
   add_field_options(*command, o->field);
   command->callback(
       [o, &run] { run = [o] { return run_job([o](const Job& job) { return bake(*o, job); }); }; });

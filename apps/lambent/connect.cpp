@@ -58,9 +58,9 @@ Expected<stream::Hello> make_hello(const ConnectOptions& options) {
   }
   hello.size = *size;
   hello.rate = options.rate;
-  hello.wants = options.stage.scene.empty() ? stream::kWantsPicture
-                : options.codec == "h265"   ? stream::kWantsTextures
-                                            : stream::kWantsLight;
+  hello.wants = options.scene.file.empty() ? stream::kWantsPicture
+                : options.codec == "h265"  ? stream::kWantsTextures
+                                           : stream::kWantsLight;
   auto token = read_token(options.token_file);
   if (!token) return tl::unexpected(token.error());
   hello.token = std::move(*token);
@@ -157,8 +157,8 @@ Expected<void> connect(const ConnectOptions& options) {
   if (const auto fine = check_output(options.output, {".png"}); !fine) return fine;
   CommandFiles files;
   files.reads(options.token_file, "--token-file");
-  files.reads_scene(options.stage.scene);
-  files.reads(options.stage.light.environment, "--environment");
+  files.reads_scene(options.scene.file);
+  files.reads(options.scene.light.environment, "--environment");
   files.reads(options.connect.authority, "--authority");
   if (options.frames == 1) {
     files.writes(options.output, "-o");
@@ -166,8 +166,8 @@ Expected<void> connect(const ConnectOptions& options) {
     files.writes_frames(options.output, options.frames, "-o");
   }
   if (const auto fine = files.check(); !fine) return fine;
-  if (!options.stage.scene.empty()) {
-    if (const auto fine = check_scene_input(options.stage.scene); !fine) return fine;
+  if (!options.scene.file.empty()) {
+    if (const auto fine = check_scene_input(options.scene.file); !fine) return fine;
   }
   if (options.interest > 0.0f && options.codec != "lambent") {
     return fail("--interest", "", "is not for light through H.265, which comes as a whole");
@@ -187,7 +187,7 @@ Expected<void> connect(const ConnectOptions& options) {
   if (!joined) return tl::unexpected(joined.error());
   if (const auto made = make_folders(options.output); !made) return made;
   Expected<void> done;
-  if (options.stage.scene.empty()) {
+  if (options.scene.file.empty()) {
     if (*camera) done = joined->client->send(**camera);
     begin_step("receiving pictures");
     if (done) done = receive_frames(options, *joined->client, settings->timeout);
@@ -246,7 +246,7 @@ void add_connect(CLI::App& app, Run& run) {
       ->type_name("DEG");
   command->option_defaults()->group("Pictures of one's own, from the server's light");
   command
-      ->add_option("--scene", o->stage.scene,
+      ->add_option("--scene", o->scene.file,
                    "Render this copy of the server's scene, in the light that the server sends")
       ->type_name("SCENE");
   command
@@ -268,7 +268,7 @@ void add_connect(CLI::App& app, Run& run) {
       ->check(number(0.0, kMaxTime))
       ->needs("--scene")
       ->type_name("M");
-  add_light_options(*command, o->stage.light);
+  add_light_options(*command, o->scene.light);
   set_examples(*command, kConnectExamples);
   command->callback([o, &run] { run = [o] { return connect(*o); }; });
 }

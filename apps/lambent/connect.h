@@ -7,7 +7,7 @@
 #include <string>
 
 #include "lambent/error.h"
-#include "lambent/stage.h"
+#include "lambent/scene_options.h"
 #include "stream/client/client.h"
 
 namespace lambent::cli {
@@ -23,7 +23,7 @@ struct ConnectOptions {
   double timeout_s = 10.0;
   float rate = 30.0f;
   int frames = 1;
-  StageOptions stage;  // with an empty scene, the server sends pictures
+  SceneOptions scene;  // with an empty scene, the server sends pictures
   std::string quality = "interactive";
   std::string codec = "lambent";  // of light
   float interest = 0.0f;  // radius within which light comes with each update [m]; 0: all light

@@ -57,13 +57,13 @@ Expected<void> render_by_stream(const ConnectOptions& options,
                                 const stream::ConnectSettings& settings, stream::Joined& joined,
                                 const std::optional<stream::CameraInput>& camera) {
   begin_step("reading the scene");
-  Expected<Scene> scene = open_stage(options.stage);
+  Expected<Scene> scene = open_lit_scene(options.scene);
   if (!scene) return tl::unexpected(scene.error());
   begin_step("preparing the scene for rays");
   World world(*scene);
   // The server chose its first light by its own view, so choose it here by the same view
   const auto light =
-      add_first_light(options.stage.light, stream::camera_of(joined.welcome.camera), *scene, world);
+      add_first_light(options.scene.light, stream::camera_of(joined.welcome.camera), *scene, world);
   if (!light) return tl::unexpected(light.error());
   auto frame = settings_of(options);
   if (!frame) return tl::unexpected(frame.error());

@@ -62,7 +62,7 @@ std::uint64_t bytes_a_pixel(const RenderOptions& options) {
   if (options.frames > 0 && is_filtered(options)) bytes += kHistoryBytes;
   if (keeps_motion(options)) bytes += kMotionBytes;
   if (uses_taa(options)) bytes += kTaaBytes;
-  if (!options.stage.fog.empty() && options.method != "reference") {
+  if (!options.scene.fog.empty() && options.method != "reference") {
     const FogSettings fog = frame_settings(options, glm::ivec2(1)).fog;
     bytes += kFroxelBytes * static_cast<std::uint64_t>(fog.slices) /
              static_cast<std::uint64_t>(fog.froxel_pixels * fog.froxel_pixels);

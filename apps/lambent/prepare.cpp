@@ -9,7 +9,7 @@
 #include "lambent/console.h"
 #include "lambent/help.h"
 #include "lambent/output.h"
-#include "lambent/stage.h"
+#include "lambent/scene_options.h"
 #include "lambent/step.h"
 #include "lambent/validators.h"
 #include "lambent/words.h"
@@ -23,7 +23,7 @@ namespace {
 constexpr int kAnyTextureSize = 16384;
 
 struct PrepareOptions {
-  StageOptions stage;
+  SceneOptions scene;
   std::string output;
   int texture_size = kAnyTextureSize;
 };
@@ -32,17 +32,17 @@ Expected<void> prepare(const PrepareOptions& options) {
   if (const Expected<void> fine = check_own_output(options.output, "a prepared scene"); !fine)
     return fine;
   CommandFiles files;
-  files.reads_scene(options.stage.scene);
-  files.reads(options.stage.light.environment, "--environment");
+  files.reads_scene(options.scene.file);
+  files.reads(options.scene.light.environment, "--environment");
   files.writes(options.output, "-o");
   if (const auto distinct = files.check(); !distinct) return distinct;
   begin_step("reading the scene");
-  Expected<Scene> scene = open_stage(options.stage);
+  Expected<Scene> scene = open_lit_scene(options.scene);
   if (!scene) return tl::unexpected(scene.error());
   World world(*scene);
-  const Expected<View> view = choose_view(options.stage, world, FirstViewSettings().aspect);
+  const Expected<View> view = choose_view(options.scene, world, FirstViewSettings().aspect);
   if (!view) return tl::unexpected(view.error());
-  const auto light = add_first_light(options.stage.light, view->camera, *scene, world);
+  const auto light = add_first_light(options.scene.light, view->camera, *scene, world);
   if (!light) return tl::unexpected(light.error());
   scene->cameras.insert(scene->cameras.begin(), view->camera);
   limit_textures(*scene, options.texture_size);
@@ -59,7 +59,7 @@ void add_prepare(CLI::App& app, Run& run) {
   auto options = std::make_shared<PrepareOptions>();
   CLI::App* command =
       app.add_subcommand("prepare", "Write a scene as a file that lambent_gpu_bench reads");
-  add_stage_options(*command, options->stage);
+  add_scene_and_view_options(*command, options->scene);
   command->group(kSceneGroup);
   command->option_defaults()->group("The file");
   command->add_option("-o,--output", options->output, "The file to write")

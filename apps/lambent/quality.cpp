@@ -112,7 +112,7 @@ Expected<void> check_quality(const RenderOptions& options) {
   if (options.frames == 0 && leaves_out(options, "taa")) {
     return fail("--without", "", "taa goes with --frames: single pictures have none");
   }
-  if (!options.stage.fog.empty() && leaves_out(options, "fog")) {
+  if (!options.scene.fog.empty() && leaves_out(options, "fog")) {
     return fail("--fog", "", "does not go with --without fog");
   }
   if (options.froxel_pixels > 0 && leaves_out(options, "fog")) {

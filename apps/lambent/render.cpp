@@ -68,7 +68,7 @@ Expected<void> pose(const RenderOptions& options, int animation, Scene& scene) {
 }
 
 Expected<void> render(const RenderOptions& options) {
-  if (const auto fine = check_scene_input(options.stage.scene); !fine) return fine;
+  if (const auto fine = check_scene_input(options.scene.file); !fine) return fine;
   if (const auto fine = check_outputs(options); !fine) return fine;
   if (const auto fine = check_options(options); !fine) return fine;
   const auto size = parse_size("--size", options.size);
@@ -81,9 +81,9 @@ Expected<void> render(const RenderOptions& options) {
   if (!device) return tl::unexpected(device.error());
 
   begin_step("reading the scene");
-  StageOptions stage = options.stage;
-  stage.no_fog = leaves_out(options, "fog");
-  Expected<Scene> scene = open_stage(stage);
+  SceneOptions input = options.scene;
+  input.no_fog = leaves_out(options, "fog");
+  Expected<Scene> scene = open_lit_scene(input);
   if (!scene) return tl::unexpected(scene.error());
   const auto animation = chosen_animation(options, *scene);
   if (!animation) return tl::unexpected(animation.error());
@@ -91,9 +91,9 @@ Expected<void> render(const RenderOptions& options) {
   begin_step("preparing the scene for rays");
   World world(*scene, *device);
   const float aspect = static_cast<float>(size->x) / static_cast<float>(size->y);
-  const Expected<View> view = choose_view(options.stage, world, aspect);
+  const Expected<View> view = choose_view(options.scene, world, aspect);
   if (!view) return tl::unexpected(view.error());
-  const auto light = add_first_light(options.stage.light, view->camera, *scene, world);
+  const auto light = add_first_light(options.scene.light, view->camera, *scene, world);
   if (!light) return tl::unexpected(light.error());
   tell("camera: " + describe(*view));
   tell("light: " + *light);
@@ -129,7 +129,7 @@ void add_render(CLI::App& app, Run& run) {
   command->group(kPictureGroup);
   set_examples(*command, kRenderExamples);
   command->callback([options, &run] {
-    if (options->output.empty()) options->output = picture_beside(options->stage.scene);
+    if (options->output.empty()) options->output = picture_beside(options->scene.file);
     run = [options] { return render(*options); };
   });
 }

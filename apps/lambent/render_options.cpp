@@ -223,7 +223,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
   command.add_option("--size", o.size, "Pixels; or a name: 480p, 720p, 1080p, 1440p, 4k, 8k")
       ->capture_default_str()
       ->type_name("WxH");
-  add_stage_options(command, o.stage);
+  add_scene_and_view_options(command, o.scene);
   for (const char* name : {"--camera", "--light"}) command.get_option(name)->group(kMainGroup);
   command.option_defaults()->group(kMainGroup);
   command

@@ -11,7 +11,7 @@
 #include "lambent/error.h"
 #include "lambent/field_options.h"
 #include "lambent/render_rsm.h"
-#include "lambent/stage.h"
+#include "lambent/scene_options.h"
 
 namespace CLI {
 class App;
@@ -26,7 +26,7 @@ inline constexpr int kMaxSamples = 1 << 20;
 
 /// The options of `lambent render`.
 struct RenderOptions {
-  StageOptions stage;
+  SceneOptions scene;
   std::string output;  // empty until render chooses: beside the scene
   std::string method = "field";
   BackendOptions backend;

@@ -54,8 +54,8 @@ Expected<void> check_outputs(const RenderOptions& options) {
     if (const Expected<void> place = check_place(path); !place) return place;
   }
   CommandFiles files;
-  files.reads_scene(options.stage.scene);
-  files.reads(options.stage.light.environment, "--environment");
+  files.reads_scene(options.scene.file);
+  files.reads(options.scene.light.environment, "--environment");
   files.reads(options.field_file, "--field");
   if (options.frames > 0) {
     files.writes_frames(options.output, options.frames, "-o");

@@ -36,7 +36,7 @@ Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int a
     // A camera of the scene follows the animation; any other does not move, nor does any where
     // nothing is animated
     if (view.from == View::From::scene && !scene.animations.empty()) {
-      Expected<Camera> moved = camera_of_scene(options.stage, scene);
+      Expected<Camera> moved = camera_of_scene(options.scene, scene);
       if (!moved) return tl::unexpected(moved.error());
       view.camera = std::move(*moved);
     }

@@ -19,9 +19,9 @@
 #include "lambent/parse.h"
 #include "lambent/progress_bar.h"
 #include "lambent/quality.h"
+#include "lambent/scene_options.h"
 #include "lambent/serve_options.h"
 #include "lambent/server_address.h"
-#include "lambent/stage.h"
 #include "lambent/step.h"
 #include "lambent/threads.h"
 #include "lambent/words.h"
@@ -91,7 +91,7 @@ Expected<void> check_memory(const ServeOptions& options, std::size_t clients,
 }
 
 Expected<void> check(const ServeOptions& options) {
-  if (const auto fine = check_scene_input(options.stage.scene); !fine) return fine;
+  if (const auto fine = check_scene_input(options.scene.file); !fine) return fine;
   const stream::ListenSettings& listen = options.server.listen;
   if (listen.certificate.empty() != listen.key.empty()) {
     return fail(listen.key.empty() ? "--certificate" : "--key", "",
@@ -129,7 +129,7 @@ Expected<void> serve_world(const ServeOptions& options, const Served& served,
   const InterruptGuard guard;
   const auto server = stream::Server::open(served, settings);
   if (!server) return tl::unexpected(server.error());
-  tell("serving " + options.stage.scene + " at " + (*server)->url() + " (Ctrl-C ends it)");
+  tell("serving " + options.scene.file + " at " + (*server)->url() + " (Ctrl-C ends it)");
   const auto done = (*server)->run([&guard] { return guard.interrupted(); });
   if (!done) return done;
   const stream::HubStats stats = (*server)->stats();
@@ -167,7 +167,7 @@ stream::ServerSettings server_settings(const ServeOptions& options,
 Expected<View> served_view(const ServeOptions& options, const World& world,
                            const glm::uvec2& size) {
   const glm::vec2 pixels(size);
-  return choose_view(options.stage, world, pixels.x / pixels.y);
+  return choose_view(options.scene, world, pixels.x / pixels.y);
 }
 
 /// Serves the scene in the light that another server computes.
@@ -177,18 +177,18 @@ Expected<void> serve_relayed(const ServeOptions& options, const stream::PictureS
   if (!upstream) return tl::unexpected(upstream.error());
   const stream::Welcome& welcome = (*upstream)->welcome();
   begin_step("reading the scene");
-  Expected<Scene> scene = open_stage(options.stage);
+  Expected<Scene> scene = open_lit_scene(options.scene);
   if (!scene) return tl::unexpected(scene.error());
   begin_step("preparing the scene for rays");
   World world(*scene);
   // The other server chose its first light by its own view, so choose it here by the same view
   const Camera theirs = stream::camera_of(welcome.camera);
-  const auto light = add_first_light(options.stage.light, theirs, *scene, world);
+  const auto light = add_first_light(options.scene.light, theirs, *scene, world);
   if (!light) return tl::unexpected(light.error());
   if (const auto same = check_same_scene(options.light_from, welcome, *scene); !same) return same;
   Camera camera = theirs;
-  const StageOptions& stage = options.stage;
-  if (!stage.camera.empty() || !stage.eye.empty() || !stage.target.empty() || stage.fov_degrees) {
+  const SceneOptions& asked = options.scene;
+  if (!asked.camera.empty() || !asked.eye.empty() || !asked.target.empty() || asked.fov_degrees) {
     const Expected<View> view = served_view(options, world, pictures.limits.size);
     if (!view) return tl::unexpected(view.error());
     tell("camera: " + describe(*view));
@@ -203,7 +203,7 @@ Expected<void> serve_relayed(const ServeOptions& options, const stream::PictureS
 /// Serves the scene in light that is computed locally.
 Expected<void> serve_own(const ServeOptions& options, const stream::PictureSettings& pictures) {
   begin_step("reading the scene");
-  Expected<Scene> scene = open_stage(options.stage);
+  Expected<Scene> scene = open_lit_scene(options.scene);
   if (!scene) return tl::unexpected(scene.error());
   if (options.server.world.play && scene->animations.empty()) {
     return fail("--play", "", "the scene has no animation that can be played");
@@ -212,7 +212,7 @@ Expected<void> serve_own(const ServeOptions& options, const stream::PictureSetti
   World world(*scene);
   const Expected<View> view = served_view(options, world, pictures.limits.size);
   if (!view) return tl::unexpected(view.error());
-  const auto light = add_first_light(options.stage.light, view->camera, *scene, world);
+  const auto light = add_first_light(options.scene.light, view->camera, *scene, world);
   if (!light) return tl::unexpected(light.error());
   tell("camera: " + describe(*view));
   tell("light: " + *light);

@@ -127,7 +127,7 @@ void add_serve_options(CLI::App& command, ServeOptions& o) {
   command.option_defaults()->group(kMainGroup);
   add_world_options(command, o);
   add_listen_options(command, o);
-  add_stage_options(command, o.stage);
+  add_scene_and_view_options(command, o.scene);
   const std::size_t before_field = command.get_options().size();
   add_field_options(command, o.field);
   command.add_option("--updates", o.updates, "Updates of the field before it is served")

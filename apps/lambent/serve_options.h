@@ -7,7 +7,7 @@
 
 #include "lambent/field_options.h"
 #include "lambent/light_from.h"
-#include "lambent/stage.h"
+#include "lambent/scene_options.h"
 #include "stream/server/server.h"
 
 namespace CLI {
@@ -18,7 +18,7 @@ namespace lambent::cli {
 
 /// The values of these options.
 struct ServeOptions {
-  StageOptions stage;
+  SceneOptions scene;
   FieldOptions field;
   LightFromOptions light_from;
   stream::ServerSettings server;

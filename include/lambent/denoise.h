@@ -65,7 +65,7 @@ struct DenoiseSettings {
   /// differs from everything around it. Where both variance and levels are given, the first pass
   /// averages the variance and leaves the light unchanged, and the pixels of all other passes are
   /// half as far apart.
-  int blind_passes = 2;
+  int geometric_passes = 2;
   /// Neighbours have the weight exp(-sharpness * (1 - cosine between normals)); 0 to 1024.
   float normal_sharpness = 8.0f;
   /// Neighbours have the weight exp(-d^2), where d is their distance from the pixel's plane,
@@ -85,7 +85,7 @@ DenoiseSettings emitter_denoising();
 
 /// Settings with which all passes ignore differences of light: for quantities that are spread over
 /// surfaces whatever their noise, and for light that lobes reflect.
-DenoiseSettings blind_denoising();
+DenoiseSettings geometric_denoising();
 
 /// The radius [pixels] around a pixel on which its filtered light depends.
 int denoise_reach(const DenoiseSettings& settings);

@@ -27,7 +27,7 @@ void add_excess(const DenoiseView& view, FilteredPixels& pixels) {
   if (std::none_of(pixels.excess.begin(), pixels.excess.end(), is_some)) return;
   pixels.filtered_excess.resize(pixels.excess.size());
   [[maybe_unused]] const Expected<void> done = pixels.denoiser.filter(
-      view, {pixels.excess, {}, {}}, blind_denoising(), pixels.filtered_excess);
+      view, {pixels.excess, {}, {}}, geometric_denoising(), pixels.filtered_excess);
   assert(done);  // sizes are the view's
   parallel_chunks(pixels.excess.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -45,7 +45,7 @@ bool filter_lobes(DenoiseView view, FilteredPixels& pixels, FilteredCoats& coats
   if (!any) return false;
   view.lobes = {pixels.to_viewer_ws, coats.alphas, coats.inverse_distances};
   [[maybe_unused]] const Expected<void> done =
-      pixels.denoiser.filter(view, {coats.light, {}, {}}, blind_denoising(), coats.filtered);
+      pixels.denoiser.filter(view, {coats.light, {}, {}}, geometric_denoising(), coats.filtered);
   assert(done);  // sizes are the view's
   return true;
 }
@@ -190,8 +190,8 @@ Band traced_rows(const FrameRequest& request) {
   const FrameSettings& settings = request.settings;
   const Band rows = rendered_rows(settings);
   if (!settings.denoise) return rows;
-  int reach = std::max(
-      {denoise_reach({}), denoise_reach(emitter_denoising()), denoise_reach(blind_denoising())});
+  int reach = std::max({denoise_reach({}), denoise_reach(emitter_denoising()),
+                        denoise_reach(geometric_denoising())});
   if (filters_through(request)) reach += kReuse;  // for seen_inverse_distance()
   if (shows_rough_glass(request)) reach *= 2;     // its light is filtered twice
   const int first = std::max(0, rows.first_row - reach);

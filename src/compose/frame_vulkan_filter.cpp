@@ -107,12 +107,12 @@ void FramePassesVulkan::denoise_coats(const DenoiseViewOnDevice& view) {
     const FilteredPixelsRecord& r = memory_.filtered.record;
     DenoiseViewOnDevice of_lobes = view;
     of_lobes.lobes = r.coat_lobes;
-    memory_.denoiser.record(to, of_lobes, {r.coats}, blind_denoising(), r.filtered_coats);
+    memory_.denoiser.record(to, of_lobes, {r.coats}, geometric_denoising(), r.filtered_coats);
     if (filters_clearcoats(*request_)) {
       DenoiseViewOnDevice of_clearcoats = view;
       of_clearcoats.normals_ws = r.clearcoat_normals_ws;
       of_clearcoats.lobes = r.clearcoat_lobes;
-      memory_.denoiser.record(to, of_clearcoats, {r.clearcoats}, blind_denoising(),
+      memory_.denoiser.record(to, of_clearcoats, {r.clearcoats}, geometric_denoising(),
                               r.filtered_clearcoats);
     }
     if (emitter_draws() == 0) return;
@@ -146,7 +146,8 @@ void FramePassesVulkan::denoise(float share) {
           to, view,
           {r.gathered, r.looked_up, variance(settings.gather_rays > 1, r.gathered_variance)}, {},
           r.filtered_gathered);
-      memory_.denoiser.record(to, view, {r.excess}, blind_denoising(), r.filtered_gathered, true);
+      memory_.denoiser.record(to, view, {r.excess}, geometric_denoising(), r.filtered_gathered,
+                              true);
     });
   }
   if (lit) {

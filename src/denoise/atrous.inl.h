@@ -28,7 +28,7 @@ struct AtrousLight {
   Real3 light;
   Real3 base;
   /// Variance of an unfiltered pixel's luminance, estimated from the pixels filtered so far. Where
-  /// variances are not measured: the mean of squares, until the blind passes end.
+  /// variances are not measured: the mean of squares, until the geometric passes end.
   Real spread;
   /// Variance of this pixel's luminance as a share of that of an unfiltered one.
   Real share;
@@ -138,7 +138,7 @@ LAMBENT_REAL_FN AtrousLight divided_sums(AtrousPass by, AtrousLight own, AtrousL
   if (by.has_base != 0u) sum.base = sum.base * scale;
   sum.spread = sum.spread * scale;
   sum.share = sum.share * (scale * scale);
-  if (by.ends_blind != 0u && by.measured == 0u) {
+  if (by.ends_geometric != 0u && by.measured == 0u) {
     // Compute the unbiased estimate of a variance from several pixels
     Real level = filtered_luminance(by, sum);
     Real square = level * level;
@@ -181,7 +181,7 @@ LAMBENT_REAL_FN AtrousLight filtered_pixel(AtrousPass by) {
       difference += difference_of_lobes(lobe, lobe_at(x * by.apart, y * by.apart),
                                         there.position_ws - here.position_ws, across_ws);
     }
-    if (by.blind == 0u) {
+    if (by.geometric == 0u) {
       Real contrast = own_luminance - filtered_luminance(by, neighbour);
       difference +=
           contrast * contrast * by.contrast_scale /

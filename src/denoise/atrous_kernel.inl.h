@@ -92,9 +92,9 @@ struct PixelLanes {
 };
 
 /// Filters a row with flags that are compile-time constants, so that loops have no branches.
-LAMBENT_FORCE_INLINE void filter_lanes(AtrousPass by, const AtrousRow& row, uint blind,
+LAMBENT_FORCE_INLINE void filter_lanes(AtrousPass by, const AtrousRow& row, uint geometric,
                                        uint has_base, uint has_levels, uint has_lobes) {
-  by.blind = blind;
+  by.geometric = geometric;
   by.has_base = has_base;
   by.has_levels = has_levels;
   by.has_lobes = has_lobes;
@@ -112,12 +112,12 @@ LAMBENT_FORCE_INLINE void filter_lanes(AtrousPass by, const AtrousRow& row, uint
 
 static void filter_row(const AtrousPass& by, const AtrousRow& row) {
   if (by.has_lobes != 0) {
-    by.blind != 0 ? filter_lanes(by, row, 1, 0, 0, 1) : filter_lanes(by, row, 0, 0, 0, 1);
+    by.geometric != 0 ? filter_lanes(by, row, 1, 0, 0, 1) : filter_lanes(by, row, 0, 0, 0, 1);
   } else if (by.has_base != 0) {
-    by.blind != 0 ? filter_lanes(by, row, 1, 1, 0, 0) : filter_lanes(by, row, 0, 1, 0, 0);
+    by.geometric != 0 ? filter_lanes(by, row, 1, 1, 0, 0) : filter_lanes(by, row, 0, 1, 0, 0);
   } else if (by.has_levels != 0) {
-    by.blind != 0 ? filter_lanes(by, row, 1, 0, 1, 0) : filter_lanes(by, row, 0, 0, 1, 0);
+    by.geometric != 0 ? filter_lanes(by, row, 1, 0, 1, 0) : filter_lanes(by, row, 0, 0, 1, 0);
   } else {
-    by.blind != 0 ? filter_lanes(by, row, 1, 0, 0, 0) : filter_lanes(by, row, 0, 0, 0, 0);
+    by.geometric != 0 ? filter_lanes(by, row, 1, 0, 0, 0) : filter_lanes(by, row, 0, 0, 0, 0);
   }
 }

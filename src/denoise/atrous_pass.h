@@ -68,8 +68,8 @@ struct AtrousPass {
   float normal_sharpness;  ///< See DenoiseSettings.
   float plane_scale;       ///< 1 / DenoiseSettings::plane_tolerance.
   float contrast_scale;    ///< 1 / DenoiseSettings::noise_tolerance^2.
-  uint blind;              ///< 1: the light of pixels is not compared.
-  uint ends_blind;         ///< 1: the last blind pass, after which the variance is known.
+  uint geometric;          ///< 1: the light of pixels is not compared.
+  uint ends_geometric;     ///< 1: the last geometric pass, after which the variance is known.
   uint measured;           ///< 1: variances were measured per pixel; 0: estimated from neighbours.
   uint only_spread;        ///< 1: averages variances alone, and leaves light as it is.
   uint has_base;           ///< 1: there is a base.

@@ -19,7 +19,7 @@ Expected<void> check_range(const char* name, bool fine, const char* range) {
 Expected<void> check(const DenoiseSettings& s) {
   const Expected<void> checks[] = {
       check_range("denoise passes", s.passes >= 1 && s.passes <= kMaxDenoisePasses, "1 to 6"),
-      check_range("blind passes", s.blind_passes >= 1 && s.blind_passes <= s.passes,
+      check_range("geometric passes", s.geometric_passes >= 1 && s.geometric_passes <= s.passes,
                   "1 to the number of passes"),
       check_range("normal sharpness",
                   s.normal_sharpness >= 0.0f && s.normal_sharpness <= kMostSharpness, "0 to 1024"),
@@ -37,15 +37,15 @@ Expected<void> check(const DenoiseSettings& s) {
 DenoiseSettings emitter_denoising() {
   DenoiseSettings settings;
   settings.passes = 5;
-  settings.blind_passes = 1;
+  settings.geometric_passes = 1;
   settings.noise_tolerance = 2.5f;
   return settings;
 }
 
-DenoiseSettings blind_denoising() {
-  DenoiseSettings blind;
-  blind.blind_passes = blind.passes;
-  return blind;
+DenoiseSettings geometric_denoising() {
+  DenoiseSettings geometric;
+  geometric.geometric_passes = geometric.passes;
+  return geometric;
 }
 
 int denoise_reach(const DenoiseSettings& settings) {
@@ -65,8 +65,8 @@ std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has
     pass.normal_sharpness = settings.normal_sharpness;
     pass.plane_scale = 1.0f / settings.plane_tolerance;
     pass.contrast_scale = 1.0f / (settings.noise_tolerance * settings.noise_tolerance);
-    pass.blind = i < settings.blind_passes ? 1 : 0;
-    pass.ends_blind = i == settings.blind_passes - 1 ? 1 : 0;
+    pass.geometric = i < settings.geometric_passes ? 1 : 0;
+    pass.ends_geometric = i == settings.geometric_passes - 1 ? 1 : 0;
     pass.only_spread = knows_noise && i == 0 ? 1 : 0;
     pass.measured = measured ? 1 : 0;
     pass.has_base = has_base ? 1 : 0;

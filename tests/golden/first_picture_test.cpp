@@ -5,10 +5,10 @@
 #include <chrono>
 #include <filesystem>
 
+#include "first_picture/survey.h"
 #include "golden/truth.h"
 #include "lambent/first_picture.h"
 #include "lambent/world.h"
-#include "stage/survey.h"
 #include "support/view_coverage.h"
 
 namespace lambent::first_picture_test {

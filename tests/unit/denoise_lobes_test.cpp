@@ -42,7 +42,7 @@ struct Coat {
   }
   std::vector<vec3> filtered() const {
     std::vector<vec3> result(light.size());
-    EXPECT_TRUE(Denoiser().filter(view(), {light, {}, {}}, blind_denoising(), result));
+    EXPECT_TRUE(Denoiser().filter(view(), {light, {}, {}}, geometric_denoising(), result));
     return result;
   }
   /// One ray in eight brings light.
@@ -198,14 +198,14 @@ TEST(DenoiseLobes, RefusesWhatDoesNotFit) {
   std::vector<vec3> result(coat.light.size());
   DenoiseView view = coat.view();
   view.lobes.to_viewer_ws = view.lobes.to_viewer_ws.first(5);
-  EXPECT_FALSE(Denoiser().filter(view, {coat.light, {}, {}}, blind_denoising(), result));
+  EXPECT_FALSE(Denoiser().filter(view, {coat.light, {}, {}}, geometric_denoising(), result));
   view = coat.view();
   view.lobes.inverse_distances = {};
-  EXPECT_FALSE(Denoiser().filter(view, {coat.light, {}, {}}, blind_denoising(), result));
+  EXPECT_FALSE(Denoiser().filter(view, {coat.light, {}, {}}, geometric_denoising(), result));
   EXPECT_FALSE(
-      Denoiser().filter(coat.view(), {coat.light, coat.light, {}}, blind_denoising(), result));
-  EXPECT_FALSE(
-      Denoiser().filter(coat.view(), {coat.light, {}, {}, coat.depths}, blind_denoising(), result));
+      Denoiser().filter(coat.view(), {coat.light, coat.light, {}}, geometric_denoising(), result));
+  EXPECT_FALSE(Denoiser().filter(coat.view(), {coat.light, {}, {}, coat.depths},
+                                 geometric_denoising(), result));
 }
 
 }  // namespace

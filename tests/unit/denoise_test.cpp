@@ -160,9 +160,9 @@ TEST(Denoise, TakesLittleFromWhereTheLevelIsFarLower) {
   for (int y = 0; y < wall.height; ++y) {
     for (int x = 0; x < 32; ++x) wall.levels[wall.at(x, y)] = 1e-3f;
   }
-  DenoiseSettings blind = emitter_denoising();
-  blind.blind_passes = blind.passes;
-  const std::vector<vec3> filtered = wall.filtered(blind);
+  DenoiseSettings geometric = emitter_denoising();
+  geometric.geometric_passes = geometric.passes;
+  const std::vector<vec3> filtered = wall.filtered(geometric);
   for (int y = 0; y < wall.height; ++y) {
     EXPECT_NEAR(filtered[wall.at(32, y)].x, 1.0f, 0.01f);
     // The other way round it counts fully
@@ -275,8 +275,8 @@ TEST(Denoise, RefusesWhatIsOutOfRange) {
   };
   EXPECT_EQ(refused([](DenoiseSettings&) {}), "");
   EXPECT_EQ(refused([](DenoiseSettings& s) { s.passes = 7; }), "denoise passes");
-  EXPECT_EQ(refused([](DenoiseSettings& s) { s.blind_passes = 0; }), "blind passes");
-  EXPECT_EQ(refused([](DenoiseSettings& s) { s.blind_passes = 7; }), "blind passes");
+  EXPECT_EQ(refused([](DenoiseSettings& s) { s.geometric_passes = 0; }), "geometric passes");
+  EXPECT_EQ(refused([](DenoiseSettings& s) { s.geometric_passes = 7; }), "geometric passes");
   EXPECT_EQ(refused([](DenoiseSettings& s) { s.normal_sharpness = -1.0f; }), "normal sharpness");
   EXPECT_EQ(refused([](DenoiseSettings& s) { s.plane_tolerance = 0.0f; }), "plane tolerance");
   EXPECT_EQ(refused([](DenoiseSettings& s) { s.noise_tolerance = NAN; }), "noise tolerance");

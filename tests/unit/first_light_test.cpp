@@ -2,10 +2,10 @@
 // Which light a scene without any is given.
 #include <gtest/gtest.h>
 
+#include "first_picture/seen.h"
 #include "lambent/first_picture.h"
 #include "raytracing/world_access.h"
 #include "scenes/builtin.h"
-#include "stage/seen.h"
 #include "support/box_scenes.h"
 #include "support/hand_made.h"
 

@@ -2,10 +2,10 @@
 // Where the first picture is taken from, in scenes that nobody described.
 #include <gtest/gtest.h>
 
+#include "first_picture/survey.h"
 #include "lambent/first_picture.h"
 #include "raytracing/world_access.h"
 #include "scenes/builtin.h"
-#include "stage/survey.h"
 #include "support/box_scenes.h"
 #include "support/hand_made.h"
 #include "support/view_coverage.h"

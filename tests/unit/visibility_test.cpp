@@ -11,10 +11,10 @@
 #include "field/lookup/lookup.h"
 #include "field/lookup/visibility_math.h"
 #include "field/probes/volumes.h"
+#include "first_picture/survey.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/surface.h"
 #include "raytracing/world_access.h"
-#include "stage/survey.h"
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"
 

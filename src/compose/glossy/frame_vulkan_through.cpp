@@ -163,13 +163,13 @@ void FramePassesVulkan::denoise_through(const DenoiseViewOnDevice& view, const S
                               emitter_denoising(), r.filtered_emitters);
     }
     behind.lobes = r.coat_lobes;
-    memory_.denoiser.record(to, behind, {r.coats}, blind_denoising(), r.filtered_coats);
+    memory_.denoiser.record(to, behind, {r.coats}, geometric_denoising(), r.filtered_coats);
     to.run(kernels_.add_behind, AddBehindArguments{seen, pixels, draws}, pixels);
     to.barrier();
     if (blurs) {
       DenoiseViewOnDevice blurred = view;
       blurred.lobes = r.lobes;
-      memory_.denoiser.record(to, blurred, {r.light}, blind_denoising(), r.filtered);
+      memory_.denoiser.record(to, blurred, {r.light}, geometric_denoising(), r.filtered);
     }
     const ShowThroughArguments shows = {seen,
                                         {memory_.layers.address()},

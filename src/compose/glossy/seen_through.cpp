@@ -63,7 +63,7 @@ void filter_behind(const DenoiseView& view, Denoiser& denoiser, SeenThrough& see
   find_inverse_distances(view, seen.coat_alphas, seen.coat_distances, seen.coat_inverse_distances);
   behind.lobes = {seen.coat_to_viewer_ws, seen.coat_alphas, seen.coat_inverse_distances};
   [[maybe_unused]] const Expected<void> done =
-      denoiser.filter(behind, {seen.coats, {}, {}}, blind_denoising(), seen.filtered_coats);
+      denoiser.filter(behind, {seen.coats, {}, {}}, geometric_denoising(), seen.filtered_coats);
   assert(done);
   parallel_chunks(seen.light.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -152,7 +152,7 @@ void filter_through(const DenoiseView& view, Denoiser& denoiser, SeenThrough& se
   blurred.normals_ws = seen.away_normals_ws;
   blurred.lobes = {seen.to_viewer_ws, seen.alphas, seen.inverse_distances};
   [[maybe_unused]] const Expected<void> done =
-      denoiser.filter(blurred, {seen.light, {}, {}}, blind_denoising(), seen.filtered);
+      denoiser.filter(blurred, {seen.light, {}, {}}, geometric_denoising(), seen.filtered);
   assert(done);
 }
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "stage/seen.h"
+#include "first_picture/seen.h"
 
 namespace lambent {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lambent/stage_light.h"
+#include "lambent/light_options.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "first_picture/studio.h"
 #include "lambent/input.h"
 #include "lambent/parse.h"
 #include "lambent/validators.h"
 #include "lambent/world.h"
 #include "scene/limits.h"
-#include "stage/studio.h"
 
 namespace lambent::cli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lambent/stage_fog.h"
+#include "lambent/fog_option.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

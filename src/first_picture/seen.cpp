@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stage/seen.h"
+#include "first_picture/seen.h"
 
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "first_picture/survey.h"
 #include "raytracing/surface.h"
 #include "raytracing/world_access.h"
 #include "scene/attributes.h"
 #include "shared/random.h"
-#include "stage/survey.h"
 
 namespace lambent {
 namespace {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "first_picture/lamps.h"
+#include "first_picture/seen.h"
+#include "first_picture/studio.h"
+#include "first_picture/survey.h"
 #include "lambent/first_picture.h"
 #include "shared/rays.h"
-#include "stage/lamps.h"
-#include "stage/seen.h"
-#include "stage/studio.h"
-#include "stage/survey.h"
 
 namespace lambent {
 namespace {

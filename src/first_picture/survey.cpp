@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stage/survey.h"
+#include "first_picture/survey.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "lambent/error.h"
+#include "lambent/light_options.h"
 #include "lambent/scene.h"
-#include "lambent/stage_light.h"
 
 namespace CLI {
 class App;
@@ -19,8 +19,8 @@ class World;
 
 namespace lambent::cli {
 
-struct StageOptions {
-  std::string scene;
+struct SceneOptions {
+  std::string file;
   std::string camera;
   std::string eye, target;
   std::optional<float> fov_degrees;  // none: the camera's own
@@ -32,12 +32,12 @@ struct StageOptions {
 };
 
 /// Adds the options of scene and light, without those of the view.
-void add_scene_options(CLI::App& command, StageOptions& options);
+void add_scene_options(CLI::App& command, SceneOptions& options);
 /// Adds the options of scene, light and view.
-void add_stage_options(CLI::App& command, StageOptions& options);
+void add_scene_and_view_options(CLI::App& command, SceneOptions& options);
 
 /// Opens the scene, with the lights of the options. Prints the loader's warnings on stderr.
-Expected<Scene> open_stage(const StageOptions& options);
+Expected<Scene> open_lit_scene(const SceneOptions& options);
 
 /// The camera of a picture, and how it was chosen.
 struct View {
@@ -49,10 +49,10 @@ struct View {
 /// The camera that the options ask for, else the scene's first that sees any of its surfaces, else
 /// one that shows the scene (lambent/first_picture.h), with a warning where the scene has cameras.
 /// `aspect` is the picture's width over its height.
-Expected<View> choose_view(const StageOptions& options, const World& world, float aspect);
+Expected<View> choose_view(const SceneOptions& options, const World& world, float aspect);
 
 /// The camera of the scene that the options name, else its first, of which there must be one.
-Expected<Camera> camera_of_scene(const StageOptions& options, const Scene& scene);
+Expected<Camera> camera_of_scene(const SceneOptions& options, const Scene& scene);
 
 /// Describes how the view was chosen; if by the program, also the options that reproduce it.
 std::string describe(const View& view);

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <glm/gtc/constants.hpp>
 
+#include "first_picture/views.h"
 #include "lambent/first_picture.h"
 #include "raytracing/camera_rays.h"
-#include "stage/views.h"
 
 namespace lambent {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stage/studio.h"
+#include "first_picture/studio.h"
 
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "first_picture/survey.h"
 #include "scene/latitude_longitude.h"
-#include "stage/survey.h"
 
 namespace lambent {
 namespace {

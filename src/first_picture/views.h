@@ -4,8 +4,8 @@
 
 #include <optional>
 
+#include "first_picture/survey.h"
 #include "lambent/first_picture.h"
-#include "stage/survey.h"
 
 namespace lambent {
 

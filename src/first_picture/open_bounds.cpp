@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
+#include "first_picture/survey.h"
 #include "lambent/world.h"
 #include "raytracing/find_solid_sides.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/world_access.h"
-#include "stage/survey.h"
 
 namespace lambent {
 namespace {

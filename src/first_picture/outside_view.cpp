@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "first_picture/views.h"
 #include "shared/rays.h"
-#include "stage/views.h"
 
 namespace lambent {
 namespace {

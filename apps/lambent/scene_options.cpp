@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lambent/stage.h"
+#include "lambent/scene_options.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,9 +9,9 @@
 
 #include "lambent/console.h"
 #include "lambent/first_picture.h"
+#include "lambent/fog_option.h"
 #include "lambent/input.h"
 #include "lambent/parse.h"
-#include "lambent/stage_fog.h"
 #include "lambent/validators.h"
 #include "lambent/words.h"
 #include "lambent/world.h"
@@ -50,7 +50,7 @@ int camera_that_shows(const World& world, float aspect) {
   return -1;
 }
 
-Expected<Camera> with_asked_fov(const StageOptions& options, Camera camera) {
+Expected<Camera> with_asked_fov(const SceneOptions& options, Camera camera) {
   if (!options.fov_degrees) return camera;
   if (camera.orthographic) return fail("--fov", "", "an orthographic camera has none");
   camera.vertical_fov = glm::radians(*options.fov_degrees);
@@ -59,8 +59,8 @@ Expected<Camera> with_asked_fov(const StageOptions& options, Camera camera) {
 
 }  // namespace
 
-void add_scene_options(CLI::App& command, StageOptions& o) {
-  command.add_option("SCENE", o.scene, "A .gltf or .glb file, or the name of a built-in scene")
+void add_scene_options(CLI::App& command, SceneOptions& o) {
+  command.add_option("SCENE", o.file, "A .gltf or .glb file, or the name of a built-in scene")
       ->required();
   command.option_defaults()->group("What is there, in which light");
   add_light_options(command, o.light);
@@ -72,7 +72,7 @@ void add_scene_options(CLI::App& command, StageOptions& o) {
   command.add_flag("--no-normal-maps", o.no_normal_maps, "Ignore normal maps");
 }
 
-void add_stage_options(CLI::App& command, StageOptions& o) {
+void add_scene_and_view_options(CLI::App& command, SceneOptions& o) {
   add_scene_options(command, o);
   add_fog_option(command, o.fog);
   command.option_defaults()->group("Where to look from");
@@ -90,17 +90,17 @@ void add_stage_options(CLI::App& command, StageOptions& o) {
       ->type_name("DEG");
 }
 
-Expected<Scene> open_stage(const StageOptions& options) {
+Expected<Scene> open_lit_scene(const SceneOptions& options) {
   LoadOptions load;
   load.lambert = options.materials == "lambert";
   load.normal_maps = !options.no_normal_maps;
-  Expected<Scene> scene = open_scene_input(options.scene, load);
+  Expected<Scene> scene = open_scene_input(options.file, load);
   if (!scene) return scene;
   for (const std::string& warning : scene->source.warnings) {
     warn(warning);
   }
   if (triangle_count(*scene) == 0) {
-    return fail(options.scene, "", "the scene has no triangles: there is nothing to render");
+    return fail(options.file, "", "the scene has no triangles: there is nothing to render");
   }
   if (const auto done = add_asked_light(options.light, *scene); !done) {
     return tl::unexpected(done.error());
@@ -114,14 +114,14 @@ Expected<Scene> open_stage(const StageOptions& options) {
   return scene;
 }
 
-Expected<Camera> camera_of_scene(const StageOptions& options, const Scene& scene) {
+Expected<Camera> camera_of_scene(const SceneOptions& options, const Scene& scene) {
   Expected<Camera> camera = options.camera.empty() ? Expected<Camera>(scene.cameras.front())
                                                    : named_camera(options.camera, scene);
   if (!camera) return camera;
   return with_asked_fov(options, std::move(*camera));
 }
 
-Expected<View> choose_view(const StageOptions& options, const World& world, float aspect) {
+Expected<View> choose_view(const SceneOptions& options, const World& world, float aspect) {
   const Scene& scene = world.scene();
   // Written so that NaN fails
   const float fov_degrees = options.fov_degrees.value_or(kDefaultFov);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stage/lamps.h"
+#include "first_picture/lamps.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "first_picture/survey.h"
 #include "shared/rays.h"
 #include "shared/sampling.h"
-#include "stage/survey.h"
 
 namespace lambent {
 namespace {

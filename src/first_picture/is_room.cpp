@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "first_picture/survey.h"
 #include "shared/constants.h"
 #include "shared/rays.h"
-#include "stage/survey.h"
 
 namespace lambent {
 namespace {

@@ -7,12 +7,12 @@
 #include <unordered_set>
 #include <vector>
 
+#include "first_picture/views.h"
 #include "raytracing/direct_light.h"
 #include "raytracing/world_access.h"
 #include "shared/constants.h"
 #include "shared/random.h"
 #include "shared/rays.h"
-#include "stage/views.h"
 
 namespace lambent {
 namespace {
