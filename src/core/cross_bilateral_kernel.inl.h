@@ -2,19 +2,19 @@
 // cross_bilateral_row for one instruction set: see core/simd_levels.h.
 #include "core/guide_lanes.inl.h"
 
+#define Real Lanes
+#define LAMBENT_REAL_FN LAMBENT_FORCE_INLINE
+#include "shared/relit_blur.inl.h"
+#undef Real
+#undef LAMBENT_REAL_FN
+
 /// relit_bilateral_weight, for lanes.
 LAMBENT_FORCE_INLINE void lane_weights(Lanes& weight, const GuideLanes& here,
                                        const GuideLanes& there, const Lanes& inverse_tolerance) {
   const Lanes cosine = here.nx * there.nx + here.ny * there.ny + here.nz * there.nz;
-  const Lanes square = cosine * cosine;
-  const Lanes fourth = square * square;
   const Lanes distance =
       here.nx * (here.x - there.x) + here.ny * (here.y - there.y) + here.nz * (here.z - there.z);
-  const Lanes beyond = distance * inverse_tolerance;
-  const Lanes near = 1.0f - beyond * beyond;
-  const Lanes sixteenth = (fourth * fourth) * (fourth * fourth);
-  weight = sixteenth * near;
-  keep(weight, (cosine > 0.0f) & (near > 0.0f));
+  weight = relit_weight(cosine, distance * inverse_tolerance);
 }
 
 /// Light and its reorientation R, unpacked.
@@ -93,15 +93,13 @@ static void blur_row_relit(const BlurSource& centre, const BlurSource* neighbour
                            float inverse_tolerance) {
   blur_each(centre, neighbours, neighbour_count, count, inverse_tolerance,
             [&](const BlurLanes& blurred, const GuideLanes& here, int i) {
-              // reoriented_fraction, for lanes
               const Lanes light = blurred.light[0] * kRedLuminance +
                                   blurred.light[1] * kGreenLuminance +
                                   blurred.light[2] * kBlueLuminance;
-              const Lanes brought = blurred.reorientation[0] * here.nx +
-                                    blurred.reorientation[1] * here.ny +
-                                    blurred.reorientation[2] * here.nz;
-              Lanes share = brought / light + kHorizonLight;
-              keep(share, (share > 0.0f) & (light > 0.0f));
+              const Lanes reoriented = blurred.reorientation[0] * here.nx +
+                                       blurred.reorientation[1] * here.ny +
+                                       blurred.reorientation[2] * here.nz;
+              const Lanes share = fraction_of(reoriented, light);
               for (int c = 0; c < kLightPlanes; ++c) store(out.at(c) + i, blurred.light[c] * share);
             });
 }

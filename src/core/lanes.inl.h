@@ -20,6 +20,13 @@ LAMBENT_FORCE_INLINE void keep(Lanes& lanes, const LaneInts& mask) {
   lanes = mask ? lanes : Lanes{};
 }
 
+LAMBENT_FORCE_INLINE Lanes min(const Lanes& a, const Lanes& b) {
+  return a < b ? a : b;
+}
+LAMBENT_FORCE_INLINE Lanes max(const Lanes& a, const Lanes& b) {
+  return a > b ? a : b;
+}
+
 /// pack_upper_halves (shared/packing.h), for lanes.
 LAMBENT_FORCE_INLINE void pack_halves(Lanes& word, const Lanes& upper, const Lanes& lower) {
   constexpr int kRounding = static_cast<int>(kHalfOfLowerHalf);

@@ -1,7 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gathers for one instruction set; see core/simd_levels.h. bounded_geometry_term() for lanes of
-// pixels, and the loops around it.
+// The gathers for one instruction set; see core/simd_levels.h: loops around texel_light.inl.h, for
+// lanes of pixels.
 #include "core/guide_lanes.inl.h"
+
+#define Real Lanes
+#define LAMBENT_REAL_FN LAMBENT_FORCE_INLINE
+#include "shared/relit_blur.inl.h"
+
+using PointNumbers = GuideLanes;
+/// All pixels read the same texel.
+namespace alike {
+#define TexelReal float
+#include "rsm/texel_light.inl.h"
+#undef TexelReal
+}  // namespace alike
+/// Each pixel reads a texel of its own.
+namespace each {
+#define TexelReal Lanes
+#include "rsm/texel_light.inl.h"
+#undef TexelReal
+}  // namespace each
+#undef Real
+#undef LAMBENT_REAL_FN
 
 /// Pixels that gather light, in registers.
 struct GatherLanes : GuideLanes {
@@ -27,81 +47,38 @@ LAMBENT_FORCE_INLINE void store_light(const GatherLanes& p, const GatherRow& row
     store(row.directions.at(c) + i, p.directions[c]);
 }
 
-/// The fields of a texel that a gather reads; flux is over pi. `T` is a float where all pixels read
-/// the same texel, or Lanes where each reads its own.
-template <class T>
-struct TexelFields {
-  T x, y, z, nx, ny, nz, softening, red, green, blue;
+/// A texel whose flux is over pi; `T` is the type of its numbers.
+template <class Numbers, class T>
+struct LitTexel {
+  Numbers numbers;
+  T red, green, blue;
 };
+using SameTexel = LitTexel<alike::TexelNumbers, float>;
+using OwnTexel = LitTexel<each::TexelNumbers, Lanes>;
 
-/// The vector from a pixel to a texel, and terms that depend on it.
-struct TexelSightLanes {
-  Lanes x, y, z;       // [m]
-  Lanes below_texel;   // negative height of the pixel over the texel's plane [m]
-  Lanes fourth_power;  // of the softened distance [m^4]
-  LaneInts lit;        // set where each is above the other's plane
-};
-
-/// Computes the vector to a texel, and pi times the numerator of bounded_geometry_term(), whose
-/// denominator is way.fourth_power.
-template <class T>
-LAMBENT_FORCE_INLINE void texel_numerator(Lanes& numerator, TexelSightLanes& sight,
-                                          const GatherLanes& p, const TexelFields<T>& t) {
-  sight.x = t.x - p.x;
-  sight.y = t.y - p.y;
-  sight.z = t.z - p.z;
-  sight.below_texel = t.nx * sight.x + t.ny * sight.y + t.nz * sight.z;
-  const Lanes above_point = p.nx * sight.x + p.ny * sight.y + p.nz * sight.z;
-  const Lanes c = -(p.nx * t.nx + p.ny * t.ny + p.nz * t.nz);
-  const Lanes square = sight.x * sight.x + sight.y * sight.y + sight.z * sight.z + t.softening;
-  const Lanes compensation =
-      kSofteningCorner + c * (kSofteningLinear + c * (kSofteningSquare + c * kSofteningCube));
-  sight.fourth_power = square * square;
-  sight.lit = (sight.below_texel < 0.0f) & (above_point > 0.0f);
-  numerator = t.softening * compensation - sight.below_texel * above_point;
-}
-
-/// Pi times bounded_geometry_term().
-template <class T>
-LAMBENT_FORCE_INLINE void texel_term(Lanes& term, const GatherLanes& p, const TexelFields<T>& t) {
-  TexelSightLanes sight;
-  texel_numerator(term, sight, p, t);
-  term /= sight.fourth_power;
-  keep(term, sight.lit);
-}
-
-template <class T>
-LAMBENT_FORCE_INLINE void add_light(GatherLanes& p, const TexelFields<T>& t, const Lanes& term) {
+/// Adds a texel's light to the pixels and, if `directions`, the vectors to it.
+template <class Numbers, class T>
+LAMBENT_FORCE_INLINE void add_texel(GatherLanes& p, const LitTexel<Numbers, T>& t,
+                                    bool directions) {
+  const auto sight = see_texel(p, t.numbers);
+  const Lanes term = sight.numerator * sight.inverse;
   p.light[0] += term * t.red;
   p.light[1] += term * t.green;
   p.light[2] += term * t.blue;
-}
-
-/// Adds a texel's light to the pixels and, if `directions`, the vectors to it.
-template <class T>
-LAMBENT_FORCE_INLINE void add_texel(GatherLanes& p, const TexelFields<T>& t, bool directions) {
-  Lanes term;
-  if (!directions) {
-    texel_term(term, p, t);
-    return add_light(p, t, term);
-  }
-  // Share the one division
-  TexelSightLanes sight;
-  texel_numerator(term, sight, p, t);
-  Lanes inverse = 1.0f / sight.fourth_power;
-  keep(inverse, sight.lit);
-  add_light(p, t, term * inverse);
+  if (!directions) return;
   const T flux = t.red * kRedLuminance + t.green * kGreenLuminance + t.blue * kBlueLuminance;
-  const Lanes share = sight.below_texel * inverse * -flux;
+  const Lanes share = sight.above_texel * sight.inverse * flux;
   p.directions[0] += share * sight.x;
   p.directions[1] += share * sight.y;
   p.directions[2] += share * sight.z;
 }
 
-LAMBENT_FORCE_INLINE TexelFields<float> fields_of(const RsmTexel& t) {
-  return {t.position_ws.x,   t.position_ws.y,  t.position_ws.z, t.normal_ws.x,
-          t.normal_ws.y,     t.normal_ws.z,    t.softening,     t.flux.x * kInvPi,
-          t.flux.y * kInvPi, t.flux.z * kInvPi};
+LAMBENT_FORCE_INLINE SameTexel same_texel(const RsmTexel& t) {
+  return {{t.position_ws.x, t.position_ws.y, t.position_ws.z, t.normal_ws.x, t.normal_ws.y,
+           t.normal_ws.z, t.softening},
+          t.flux.x * kInvPi,
+          t.flux.y * kInvPi,
+          t.flux.z * kInvPi};
 }
 
 /// Gathers the same texels at all pixels; texel_at(k) returns texel k.
@@ -115,13 +92,13 @@ LAMBENT_FORCE_INLINE void gather_alike(const GatherRow& row, std::size_t count,
     clear_light(pixels);
     std::size_t k = 0;
     for (; directions && k + kStep <= count; k += kStep) {
-      add_texel(pixels, fields_of(texel_at(k)), true);
+      add_texel(pixels, same_texel(texel_at(k)), true);
       for (std::size_t j = 1; j < kStep; ++j) {
-        add_texel(pixels, fields_of(texel_at(k + j)), false);
+        add_texel(pixels, same_texel(texel_at(k + j)), false);
       }
     }
     for (; k < count; ++k) {
-      add_texel(pixels, fields_of(texel_at(k)), directions && k % kStep == 0);
+      add_texel(pixels, same_texel(texel_at(k)), directions && k % kStep == 0);
     }
     store_light(pixels, row, i, directions);
   }
@@ -157,14 +134,14 @@ static void per_pixel(const GatherRow& row, const RsmTexel* texels, const std::u
     clear_light(pixels);
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t* at = places + k * kLanes;
-      TexelFields<Lanes> t;
-      fetch(t.x, &texels->position_ws.x, at);
-      fetch(t.y, &texels->position_ws.y, at);
-      fetch(t.z, &texels->position_ws.z, at);
-      fetch(t.nx, &texels->normal_ws.x, at);
-      fetch(t.ny, &texels->normal_ws.y, at);
-      fetch(t.nz, &texels->normal_ws.z, at);
-      fetch(t.softening, &texels->softening, at);
+      OwnTexel t;
+      fetch(t.numbers.x, &texels->position_ws.x, at);
+      fetch(t.numbers.y, &texels->position_ws.y, at);
+      fetch(t.numbers.z, &texels->position_ws.z, at);
+      fetch(t.numbers.nx, &texels->normal_ws.x, at);
+      fetch(t.numbers.ny, &texels->normal_ws.y, at);
+      fetch(t.numbers.nz, &texels->normal_ws.z, at);
+      fetch(t.numbers.softening, &texels->softening, at);
       fetch(t.red, &texels->flux.x, at);
       fetch(t.green, &texels->flux.y, at);
       fetch(t.blue, &texels->flux.z, at);
@@ -186,7 +163,7 @@ static void add_fetched(const GatherRow& row, int first, const float (*fields)[k
   load_light(pixels, row, first, directions);
   Lanes f[kTexelFields];
   for (int k = 0; k < kTexelFields; ++k) load(f[k], fields[k]);
-  add_texel(pixels, TexelFields<Lanes>{f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8], f[9]},
+  add_texel(pixels, OwnTexel{{f[0], f[1], f[2], f[3], f[4], f[5], f[6]}, f[7], f[8], f[9]},
             directions);
   store_light(pixels, row, first, directions);
 }
@@ -202,12 +179,10 @@ static void reorientable(const GatherRow& row) {
     const Lanes across = p.directions[0] * p.nx + p.directions[1] * p.ny + p.directions[2] * p.nz;
     const Lanes square = p.directions[0] * p.directions[0] + p.directions[1] * p.directions[1] +
                          p.directions[2] * p.directions[2];
-    Lanes least;
-    for (int l = 0; l < kLanes; ++l) least[l] = kLeastDirectedCosine * std::sqrt(square[l]);
-    const Lanes bound = across > least ? across : least;
-    Lanes scale = light / bound;
-    keep(scale, bound > light * kLeastDirectedShare);
-    const Lanes rest = light * (1.0f - kHorizonLight) - across * scale;
+    Lanes length;
+    for (int l = 0; l < kLanes; ++l) length[l] = std::sqrt(square[l]);
+    const Lanes scale = direction_scale(light, across, length);
+    const Lanes rest = normal_share(light, across, scale);
     const Lanes normal[] = {p.nx, p.ny, p.nz};
     for (int c = 0; c < kLightPlanes; ++c) {
       Lanes word;
@@ -221,13 +196,13 @@ static void reorientable(const GatherRow& row) {
 static void add_terms(const ConstPlanes& points, int count, const RsmTexel* texels,
                       std::size_t texel_count, TermSums* sums) {
   for (std::size_t k = 0; k < texel_count; ++k) {
-    const TexelFields<float> t = fields_of(texels[k]);
+    const SameTexel t = same_texel(texels[k]);
     Lanes terms = Lanes{}, squares = Lanes{};
     for (int i = 0; i < count; i += kLanes) {
-      Lanes term;
-      GatherLanes p;
+      GuideLanes p;
       load_guide(p, points, i);
-      texel_term(term, p, t);
+      const auto sight = see_texel(p, t.numbers);
+      const Lanes term = sight.numerator * sight.inverse;
       terms += term;
       squares += term * term;
     }

@@ -46,22 +46,37 @@ const float kSofteningLinear = 0.6155f;
 const float kSofteningSquare = -0.1366f;
 const float kSofteningCube = -0.1155f;
 
-/// k above, given the cosine between the two normals.
-LAMBENT_FN float softening_compensation(float cosine) {
-  float c = -cosine;
-  return kSofteningCorner + c * (kSofteningLinear + c * (kSofteningSquare + c * kSofteningCube));
+/// A point that gathers light: position [m] and unit normal.
+struct PointNumbers {
+  float x, y, z, nx, ny, nz;
+};
+
+LAMBENT_FN PointNumbers point_numbers(vec3 position_ws, vec3 normal_ws) {
+  PointNumbers point = {position_ws.x, position_ws.y, position_ws.z,
+                        normal_ws.x,   normal_ws.y,   normal_ws.z};
+  return point;
+}
+
+#define Real float
+#define TexelReal float
+#define LAMBENT_REAL_FN LAMBENT_FN
+#include "rsm/texel_light.inl.h"
+#undef Real
+#undef TexelReal
+#undef LAMBENT_REAL_FN
+
+LAMBENT_FN TexelNumbers texel_numbers(vec3 position_ws, vec3 normal_ws, float softening) {
+  TexelNumbers texel = {position_ws.x, position_ws.y, position_ws.z, normal_ws.x,
+                        normal_ws.y,   normal_ws.z,   softening};
+  return texel;
 }
 
 /// geometry_term(), bounded as derived above. `softening`: [m^2], > 0.
 LAMBENT_FN float bounded_geometry_term(vec3 position_ws, vec3 normal_ws, vec3 texel_ws,
                                        vec3 texel_normal_ws, float softening) {
-  vec3 to_texel = texel_ws - position_ws;
-  float above_texel = -dot(texel_normal_ws, to_texel);
-  float above_point = dot(normal_ws, to_texel);
-  if (above_texel <= 0.0f || above_point <= 0.0f) return 0.0f;
-  float square = dot(to_texel, to_texel) + softening;
-  float compensation = softening_compensation(dot(normal_ws, texel_normal_ws));
-  return kInvPi * (above_texel * above_point + softening * compensation) / (square * square);
+  TexelSight sight = see_texel(point_numbers(position_ws, normal_ws),
+                               texel_numbers(texel_ws, texel_normal_ws, softening));
+  return kInvPi * sight.numerator * sight.inverse;
 }
 
 /// Softening of a texel that represents an area, per m^2: the squared radius of a disk of that

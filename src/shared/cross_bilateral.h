@@ -5,7 +5,7 @@
 #ifndef LAMBENT_SHARED_CROSS_BILATERAL_H
 #define LAMBENT_SHARED_CROSS_BILATERAL_H
 
-#include "shared/lang.h"
+#include "shared/reorient_irradiance.h"
 
 LAMBENT_BEGIN
 
@@ -26,11 +26,7 @@ const int kGuidePlanes = 7;
 /// and no weight.
 LAMBENT_FN float relit_bilateral_weight(vec3 offset, vec3 normal, vec3 other_normal,
                                         float inverse_tolerance) {
-  float cosine = max(0.0f, dot(normal, other_normal));
-  float square = cosine * cosine;
-  float fourth = square * square;
-  float beyond = dot(normal, offset) * inverse_tolerance;
-  return (fourth * fourth) * (fourth * fourth) * max(0.0f, 1.0f - beyond * beyond);
+  return relit_weight(dot(normal, other_normal), dot(normal, offset) * inverse_tolerance);
 }
 
 /// The weight when the light is not adapted to the pixel's normal. The 48th power of the cosine

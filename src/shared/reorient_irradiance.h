@@ -39,18 +39,23 @@ const float kLeastDirectedCosine = 0.2f;
 /// the direction is unreliable, and the division could overflow.
 const float kLeastDirectedShare = 1e-6f;
 
+#define Real float
+#define LAMBENT_REAL_FN LAMBENT_FN
+#include "shared/relit_blur.inl.h"
+#undef Real
+#undef LAMBENT_REAL_FN
+
 /// R for a pixel of luminance `light`, from any vector along G. The vector is scaled so that n . G
 /// = light, and tilted where it grazes. Without a direction, light comes along the normal.
 LAMBENT_FN vec3 reorientation(vec3 direction, vec3 normal, float light) {
   float across = dot(direction, normal);
-  float bound = max(across, kLeastDirectedCosine * length(direction));
-  float scale = bound > kLeastDirectedShare * light ? light / bound : 0.0f;
-  return direction * scale + normal * ((1.0f - kHorizonLight) * light - across * scale);
+  float scale = direction_scale(light, across, length(direction));
+  return direction * scale + normal * normal_share(light, across, scale);
 }
 
 /// Factor on light of this luminance, for a pixel with this normal; `means` is the mean of R.
 LAMBENT_FN float reoriented_fraction(vec3 means, vec3 normal, float light) {
-  return light > 0.0f ? max(0.0f, dot(means, normal) / light + kHorizonLight) : 0.0f;
+  return fraction_of(dot(means, normal), light);
 }
 
 LAMBENT_END

@@ -123,8 +123,8 @@ LAMBENT_FN void call_gather(LAMBENT_INOUT(RsmResultCursor) to, RsmInputs a) {
   tell(to, bounded_geometry_term(a.position_ws, a.normal_ws, a.texel.position_ws, a.texel.normal_ws,
                                  a.texel.softening));
   TexelLight sum = {vec3(0.0f), vec3(0.0f)};
-  TexelSight sight = see_texel(a.position_ws, a.normal_ws, a.texel);
-  gather_texel(sum, a.normal_ws, sight, a.texel);
+  TexelSight sight = see_texel_record(a.position_ws, a.normal_ws, a.texel);
+  gather_texel(sum, sight, a.texel);
   gather_direction(sum, sight, a.texel);
   tell(to, sum.light);
   tell(to, sum.directions);

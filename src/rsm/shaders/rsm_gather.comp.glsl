@@ -60,8 +60,8 @@ void main() {
     for (int k = 0; k < count; ++k) {
       RsmTexelRecord texel = staged_texel(k);
       for (int i = 0; i < kGatherPixels; ++i) {
-        TexelSight sight = see_texel(pixels[i].position_ws, pixels[i].normal_ws, texel);
-        gather_texel(sums[i], pixels[i].normal_ws, sight, texel);
+        TexelSight sight = see_texel_record(pixels[i].position_ws, pixels[i].normal_ws, texel);
+        gather_texel(sums[i], sight, texel);
         if (directions && k % kTexelsPerDirection == 0) gather_direction(sums[i], sight, texel);
       }
     }

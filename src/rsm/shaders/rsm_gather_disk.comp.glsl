@@ -29,8 +29,8 @@ void gather_map(inout TexelLight sum, DiskMap map, Pixel pixel) {
     if (place.x < 0 || place.y < 0 || place.x >= size.x || place.y >= size.y) continue;
     RsmTexelRecord texel = map.texels.at[texel_index(map.resolution, sub_map, place)];
     texel = weigh_disk_texel(texel, disk.weight * float(n * n), n, args.softening);
-    TexelSight sight = see_texel(pixel.position_ws, pixel.normal_ws, texel);
-    gather_texel(sum, pixel.normal_ws, sight, texel);
+    TexelSight sight = see_texel_record(pixel.position_ws, pixel.normal_ws, texel);
+    gather_texel(sum, sight, texel);
     bool with_direction = (args.flags & kGatherBlurred) != 0u && k % kTexelsPerDirection == 0;
     if (with_direction) gather_direction(sum, sight, texel);
   }

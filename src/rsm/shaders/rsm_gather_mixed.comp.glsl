@@ -21,8 +21,8 @@ void main() {
     uint at = start + uint(k);
     RsmTexelRecord texel = args.texels.at[rendered ? args.places.at[at] : at];
     texel.flux *= kInvPi;
-    TexelSight sight = see_texel(pixel.position_ws, pixel.normal_ws, texel);
-    gather_texel(sum, pixel.normal_ws, sight, texel);
+    TexelSight sight = see_texel_record(pixel.position_ws, pixel.normal_ws, texel);
+    gather_texel(sum, sight, texel);
     if (directions && k % kTexelsPerDirection == 0) gather_direction(sum, sight, texel);
   }
   finish_pixel(args.view, args.target, size, args.flags, pixel, sum);
