@@ -27,6 +27,7 @@
 #include "rsm/vulkan/direct_vulkan.h"
 #include "rsm/vulkan/gather_vulkan.h"
 #include "shaders/add_behind_comp.h"
+#include "shaders/add_behind_light_comp.h"
 #include "shaders/add_filtered_comp.h"
 #include "shaders/camera_rays_comp.h"
 #include "shaders/clearcoat_light_comp.h"
@@ -84,6 +85,8 @@ struct FrameKernels {
   vulkan::Kernel clearcoat_light{device, shaders::clearcoat_light_comp(), "clearcoat light"};
   vulkan::Kernel split_paths{device, shaders::split_paths_comp(), "forks of paths"};
   vulkan::Kernel through_rays{device, shaders::through_rays_comp(), "rays through surfaces"};
+  vulkan::Kernel add_behind_light{device, shaders::add_behind_light_comp(),
+                                  "add light of sources behind surfaces"};
   vulkan::Kernel start_through{device, shaders::start_through_comp(), "start of what is seen"};
   vulkan::Kernel keep_behind{device, shaders::keep_behind_comp(), "keep light behind glass"};
   vulkan::Kernel keep_through{device, shaders::keep_through_comp(), "keep light through surfaces"};
@@ -258,6 +261,10 @@ class FramePassesVulkan final : public FramePasses {
   void follow_paths(std::uint32_t paths, std::uint32_t bounce, std::uint32_t first_index,
                     std::uint32_t salt);
   void reuse_coat_rays(const Band& around, const Buffer& sky);
+  /// Adds the light of sources behind rough surfaces, see Glossy::sample_lights_behind: of pixels,
+  /// or of the paths in a list.
+  void sample_lights_behind(Recorder& to, const DevicePixels& seen, std::uint32_t count, uint salt,
+                            const PathBuffers* paths);
   /// Samples of emitters at each hit behind glass; 0 where nothing is drawn at random.
   std::uint32_t draws_behind_glass() const;
   void begin_through(std::size_t pixels);
@@ -301,6 +308,7 @@ class FramePassesVulkan final : public FramePasses {
   const char* path_pass_ = "";   // name of the pass whose paths are traced
   std::uint32_t path_seed_ = 0;  // seed of the paths' random numbers
   bool splits_paths_ = false;    // paths split, with reflected branches in FrameMemory::forks
+  bool samples_behind_ = false;  // there may be lights behind rough surfaces to sample
   bool keeps_behind_ = false;    // light of the first opaque surfaces behind glass is stored apart
 };
 

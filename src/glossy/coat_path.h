@@ -30,14 +30,17 @@ const uint kStageOther = 0u;
 /// It left the pixel's coat, and no other coat has reflected it. The emission that it hits, or the
 /// bright part of the sky, is stored apart, as the pixel's direct light samples it, too.
 const uint kStageOwnCoat = 1u;
+/// It came through surfaces alone. Nothing is stored apart. Where one is rough, it samples lights
+/// behind it.
+const uint kStageThroughGlass = 2u;
 /// It came through glass to the first opaque surface. Nothing is stored apart.
-const uint kStageBehindGlass = 2u;
+const uint kStageBehindGlass = 3u;
 /// It left the coat of that surface, and has hit nothing but glass since. All light is stored
 /// apart.
-const uint kStageCoatBehindGlass = 3u;
+const uint kStageCoatBehindGlass = 4u;
 /// It left the coat of that surface, and has hit something else than glass. All light is stored
 /// apart.
-const uint kStageBeyondCoat = 4u;
+const uint kStageBeyondCoat = 5u;
 
 // Values of CoatPath::fork: whether a path splits at glass into a refracted and a reflected branch.
 /// It does not split: at each surface one of the two directions is drawn at random.
@@ -52,15 +55,17 @@ const uint kForkReflected = 3u;
 /// The state of a path through the scene.
 struct CoatPath {
   vec3 throughput;  ///< Factor from the radiance of the next hit to that of the pixel's ray.
-  float pdf;        ///< Density with which the direction was drawn in which it left the last coat;
-                    ///< 0: the path has ended.
+  float pdf;        ///< Density with which the direction was drawn in which it left the last coat
+                    ///< or, if it came through surfaces alone, the last that bent it; 0: the path
+                    ///< has ended.
   float alpha;      ///< GGX width of the widest lobe on the path.
   uint stage;       ///< kStageOther, ...
   uint fork;        ///< kForksNowhere, ...
 };
 LAMBENT_DEVICE_ARRAY(CoatPathArray, CoatPath, 4)
 
-/// CoatPath::pdf of paths that begin through a surface: no other estimator samples their emitters.
+/// CoatPath::pdf of paths through surfaces behind which no lights are sampled: no other estimator
+/// finds the emitters that they meet.
 const float kNoLightSampling = 1e30f;
 
 /// Least distance to hits [m], so that its reciprocal is finite.

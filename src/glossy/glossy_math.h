@@ -68,6 +68,7 @@ const float kPlaneTolerance = 4.0f;
 const uint kCoatSalt = 0x434F4154u;
 const uint kCoatBounceSalt = 0x9E3779B9u;
 const uint kThroughSalt = 0x5448524Fu;
+const uint kBehindSalt = 0x42484E44u;
 const uint kClearcoatSalt = 0x434C5243u;
 
 /// The seed of the random numbers of clearcoats' rays, given the frame's seed.

@@ -99,6 +99,17 @@ struct SplitPathsArguments {
   uint padding;
 };
 
+/// Adds the light behind rough surfaces to the light of the pixels' rays.
+struct AddBehindLightArguments {
+  PixelSurfaceArray surfaces;  ///< One a path, or a pixel, as is the light.
+  Vec3Array light;             ///< Read where lights behind the surface are sampled.
+  CoatPathArray paths;         ///< Read where has_paths is 1, also the pixels.
+  UintArray pixels;
+  CoatRayArray coat_rays;
+  uint count;
+  uint has_paths;  ///< 0: the surfaces are those of the pixels.
+};
+
 /// Replaces each surface's reflectance by that of its clearcoat alone.
 struct ShowClearcoatsArguments {
   LitPointArray points;

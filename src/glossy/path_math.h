@@ -41,8 +41,7 @@ LAMBENT_FN float regularize_lobe(float n_dot_v, float gi_share, uint bounce,
 LAMBENT_FN float distance_met(CoatPath path, uint bounce, float so_far, float further) {
   if (bounce == 1u) return further;
   if (path.fork == kForkReflected) return so_far;
-  bool crossed_all = path.pdf == kNoLightSampling && path.stage == kStageOther;
-  return crossed_all ? so_far + further : so_far;
+  return path.stage == kStageThroughGlass ? so_far + further : so_far;
 }
 
 /// The distance from an opaque surface behind glass to what its coat reflects [m], which may lie
@@ -56,7 +55,8 @@ LAMBENT_FN float farther_seen(CoatPath path, float so_far, float further) {
 /// Whether a path has reached the first opaque surface behind glass, whose light is stored apart to
 /// be filtered.
 LAMBENT_FN bool reaches_opaque_surface(CoatPath path, Transmission through) {
-  return path.stage == kStageOther && path.fork != kForkReflected && !is_transmissive(through);
+  bool is_first = path.stage == kStageOther || path.stage == kStageThroughGlass;
+  return is_first && path.fork != kForkReflected && !is_transmissive(through);
 }
 
 /// Bounce from which reflected branches count: distances are found on bounce 1, which none has.
@@ -155,12 +155,20 @@ LAMBENT_FN NextRay extend_by_reflection(Reflectance coat, float coat_share, vec3
   return next;
 }
 
+/// Whether lights behind a surface that a path hit are sampled.
+LAMBENT_FN bool samples_lights_behind(CoatPath path, Transmission through) {
+  return path.stage == kStageThroughGlass && samples_lights_behind(through);
+}
+
 /// Continues a path through a surface, or from the inside of its volume, where it may be reflected.
 LAMBENT_FN NextRay extend_through_glass(Transmission through, Reflectance coat, vec3 normal_ws,
                                         vec3 to_viewer_ws, vec3 u, LAMBENT_INOUT(CoatPath) path) {
   ThroughDraw drawn = draw_through(through, coat, normal_ws, to_viewer_ws, u);
   path.throughput *= drawn.weight;
   path.alpha = max(path.alpha, through.alpha);
+  if (path.stage == kStageThroughGlass && !goes_straight(through)) {
+    path.pdf = drawn.pdf > 0.0f ? drawn.pdf : kNoLightSampling;
+  }
   if (drawn.weight == vec3(0.0f)) path.pdf = 0.0f;
   NextRay next = {drawn.direction_ws, drawn.crosses != 0u ? -1.0f : 1.0f};
   return next;

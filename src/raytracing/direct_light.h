@@ -6,6 +6,7 @@
 #include "lambent/world.h"
 #include "raytracing/coat_share.h"
 #include "raytracing/emitter_sampling.h"
+#include "raytracing/glass/transmitter.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/world_access.h"
 #include "scene/light_sampling.h"
@@ -54,12 +55,22 @@ struct FogReceiver {
   glm::vec3 view_direction_ws;  ///< Unit; direction of the ray from the viewer.
 };
 
-/// What candidates are drawn for: irradiance at a point, or the light that a reflector or fog there
-/// sends to the viewer.
+/// How a rough surface transmits light to a viewer, given that so many samples of emitters are
+/// taken.
+struct ThroughReceiver {
+  const Transmitter& transmitter;
+  uint samples = 1;
+};
+
+/// What candidates are drawn for: irradiance at a point, or the light that a reflector, fog or a
+/// transmitter there sends to the viewer. The normals of a point of a transmitter face away from
+/// the viewer.
 struct LightReceiver {
   LitPoint point;
-  const Reflector* reflector = nullptr;  ///< Null: for irradiance, unless there is fog.
+  /// Null: for irradiance, unless there is one of the others.
+  const Reflector* reflector = nullptr;
   const FogReceiver* fog = nullptr;
+  const ThroughReceiver* through = nullptr;
   SeenShape shape{};  ///< seen_shape() of the point, where it has an albedo_shape.
 };
 
@@ -132,6 +143,10 @@ inline float target_of(const LightReceiver& receiver, LightCandidate light) {
   if (receiver.fog != nullptr) {
     return luminance(scattered_light(*receiver.fog, receiver.point.position_ws, light));
   }
+  if (receiver.through != nullptr) {
+    return luminance(
+        sampled_transmission(receiver.through->transmitter, light, receiver.through->samples));
+  }
   if (receiver.reflector == nullptr) {
     return luminance(unoccluded_irradiance(receiver.point, receiver.shape, light));
   }
@@ -142,6 +157,7 @@ inline float target_of(const LightReceiver& receiver, LightCandidate light) {
 }
 
 inline PickLobe lobe_of(const LightReceiver& receiver) {
+  if (receiver.through != nullptr) return pick_lobe(receiver.through->transmitter);
   if (receiver.reflector == nullptr) return no_pick_lobe();
   const Reflector& to = *receiver.reflector;
   return pick_lobe(to.reflectance, to.frame, to.to_viewer);

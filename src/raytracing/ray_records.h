@@ -14,6 +14,16 @@ const uint kRayGathers = 1u << 1;       ///< Hits instances that cast GI.
 const uint kRayOfProbe = 1u << 2;       ///< The same without those that probes ignore.
 const uint kRayOfMotion = 1u << 3;      ///< Hits what has motion vectors: all but AlphaMode::blend.
 
+/// A shadow ray that only clear panes let through: surfaces that scatter or refract light stop it.
+const uint kRayThroughPanes = 0x7FFFFFFFu;
+const uint kThroughPanesMaskBits = 0x8000000Fu, kThroughPanesMaskKind = 0xFu;
+
+/// Whether a shadow ray stops at transmissive surfaces that scatter or refract light; others pass
+/// them straight on.
+LAMBENT_FN bool stops_at_bends(uint mask) {
+  return (mask & kThroughPanesMaskBits) == kThroughPanesMaskKind;
+}
+
 /// Whether a ray may pass through transmissive surfaces (Material::transmission), at random; others
 /// stop there.
 LAMBENT_FN bool crosses_glass(uint mask) {

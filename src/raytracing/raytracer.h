@@ -88,6 +88,7 @@ class RayTracer {
   /// Share of the light along each ray, between t_min and t_max, that passes straight through the
   /// surfaces there, by color; 0 where one of them is opaque. For rays that cross glass, it is
   /// divided by the probability with which they do, so that t_max may end just before their hits.
+  /// It is 0, too, where a ray stops_at_bends() and one of the surfaces scatters or refracts light.
   /// Only for tracers with has_glass().
   virtual void transmittances(std::span<const Ray> /*rays*/,
                               std::span<glm::vec3> /*through*/) const {

@@ -13,6 +13,8 @@ const uint kSurfaceMissed = 1u;      ///< The ray left the scene.
 const uint kSurfaceDiscounted = 2u;  ///< The ray hit a side that bounds solid matter: it does not
 
 ///< count.
+/// Lights behind the surface are sampled, see samples_lights_behind().
+const uint kSurfaceSamplesBehind = 4u;
 // Rays that gather a hemisphere's light have cones this wide per metre over the square root of
 // their number: together they cover the hemisphere.
 const float kHemisphereConeWidth = 2.0f;

@@ -45,6 +45,10 @@ vec3 straight_share_of(const Scene& scene, const SeenTriangle& seen, const vec3&
                            direction_ws);
 }
 
+bool bends_light(const Scene& scene, const SeenTriangle& seen) {
+  return bends_light_at(scene, seen.instance, seen.triangle, seen.barycentrics);
+}
+
 bool passes_glass_at(const Scene& scene, const SeenTriangle& seen, const Ray& ray) {
   const vec3 share = straight_share_of(scene, seen, ray.direction);
   return passes_glass(share, seen.triangle, ray.origin, ray.direction);

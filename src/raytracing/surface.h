@@ -30,6 +30,9 @@ struct SeenTriangle {
 glm::vec3 straight_share_of(const Scene& scene, const SeenTriangle& seen,
                             const glm::vec3& direction_ws);
 
+/// Whether a triangle of a transmissive material scatters or refracts the light that passes it.
+bool bends_light(const Scene& scene, const SeenTriangle& seen);
+
 /// Whether a ray for which crosses_glass() holds passes the triangle.
 bool passes_glass_at(const Scene& scene, const SeenTriangle& seen, const Ray& ray);
 

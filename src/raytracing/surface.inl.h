@@ -145,6 +145,16 @@ LAMBENT_FN vec3 straight_share_at(SceneRef scene, uint instance_index, uint tria
   return straight_share(optics.tint, optics.reflectance, dot(normal_ws, direction_ws));
 }
 
+/// Whether a triangle of a transmissive material scatters or refracts the light that passes it.
+LAMBENT_FN bool bends_light_at(SceneRef scene, uint instance_index, uint triangle,
+                               vec2 barycentrics) {
+  MeshRef mesh = fetch_mesh(scene, fetch_instance(scene, instance_index).mesh);
+  MaterialRef material = fetch_material(scene, mesh.material);
+  if (bounds_volume(material)) return true;
+  TrianglePoint p = triangle_point(mesh, triangle, barycentrics);
+  return optics_at(scene, mesh, material, p, full_resolution()).reflectance.alpha > kStraightAlpha;
+}
+
 /// A random number in [0, 1) for a ray at a triangle. It does not depend on a hit's rounding, so
 /// that rays of probes, which start at the same places everywhere, are decided alike on all
 /// devices.

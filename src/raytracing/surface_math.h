@@ -12,6 +12,10 @@ const uint kCrossesPane = 0u;   ///< The surface is thin: light goes straight on
 const uint kEntersVolume = 1u;  ///< The ray comes from outside a volume, whose surface refracts it.
 const uint kLeavesVolume = 2u;  ///< From inside, where the only reflection is inner reflection.
 
+/// Below this GGX width, that of roughness 0.05, transmitted light stays sharp: such lobes are a
+/// sixth of a degree wide.
+const float kStraightAlpha = 0.0025f;
+
 /// How a surface transmits light.
 struct Transmission {
   vec3 tint;        ///< Share of the entering light that is transmitted, by color; 0: opaque.

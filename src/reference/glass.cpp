@@ -24,7 +24,7 @@ Ray ray_from(const glm::vec3& position_ws, const glm::vec3& geometric_normal_ws,
   return ray;
 }
 
-glm::vec3 light_through(const World& world, Ray ray, bool from_punctual, std::uint64_t& rays) {
+glm::vec3 light_through(const World& world, Ray ray, bool crosses_all, std::uint64_t& rays) {
   if (!tracer_of(world).has_glass()) {
     ++rays;
     return glm::vec3(tracer_of(world).occluded(ray) ? 0.0f : 1.0f);
@@ -37,7 +37,7 @@ glm::vec3 light_through(const World& world, Ray ray, bool from_punctual, std::ui
     const Surface surface = surface_at(world.scene(), ray, hit);
     const Transmission& through = surface.transmission;
     if (!is_transmissive(through)) return glm::vec3(0.0f);
-    if (!from_punctual && !goes_straight(through)) return glm::vec3(0.0f);
+    if (!crosses_all && !goes_straight(through)) return glm::vec3(0.0f);
     const SeenTriangle seen{hit.instance, hit.triangle, hit.barycentrics, hit.front_face};
     share *= straight_share_of(world.scene(), seen, ray.direction) *
              volume_transmittance(through, hit.distance);
@@ -47,6 +47,12 @@ glm::vec3 light_through(const World& world, Ray ray, bool from_punctual, std::ui
     if (ray.t_max <= 0.0f) return share;
   }
   return glm::vec3(0.0f);
+}
+
+void PathSegment::cross(const Transmission& through, const ThroughDraw& drawn) {
+  if (goes_straight(through)) return;
+  pdf = drawn.pdf > 0.0f ? drawn.pdf : kFoundByScatteringAlone;
+  distance = 0.0f;
 }
 
 bool cross(const Surface& surface, Ray& ray, glm::vec3& throughput, PathSegment& traveller,
@@ -70,7 +76,7 @@ bool cross(const Surface& surface, Ray& ray, glm::vec3& throughput, PathSegment&
   const glm::vec3 side =
       drawn.crosses != 0u ? -surface.geometric_normal_ws : surface.geometric_normal_ws;
   ray = ray_from(surface.position_ws, side, drawn.direction_ws);
-  if (!goes_straight(through)) traveller.pdf = kFoundByScatteringAlone;
+  traveller.cross(through, drawn);
   return true;
 }
 

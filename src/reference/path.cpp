@@ -127,7 +127,9 @@ void PathIntegrator::dim(const Vertex& vertex, Lighting& lighting, std::uint64_t
     Lighting::Sample& sample = lighting.samples[i];
     Ray ray = vertex.ray_to(sample.to_light_ws);
     ray.t_max = sample.distance;
-    const glm::vec3 share = light_through(world_, ray, sample.punctual, rays);
+    // Where scattered light passes further surfaces that scatter it, these sample the lights
+    const bool crosses_all = sample.punctual && !vertex.transmits();
+    const glm::vec3 share = light_through(world_, ray, crosses_all, rays);
     if (share == glm::vec3(0.0f)) continue;
     sample.weight *= share * transmittance(media_, ray.origin, ray.direction, sample.distance);
     lighting.samples[kept++] = sample;
@@ -136,9 +138,10 @@ void PathIntegrator::dim(const Vertex& vertex, Lighting& lighting, std::uint64_t
 }
 
 PathIntegrator::Lighting PathIntegrator::sample_lights(const Vertex& vertex, SobolSampler& random,
-                                                       std::uint64_t& rays) const {
+                                                       std::uint64_t& rays,
+                                                       bool with_punctual) const {
   Lighting lighting;
-  if (!scene_.lights.empty()) add_punctual(vertex, random.next1(), lighting);
+  if (with_punctual && !scene_.lights.empty()) add_punctual(vertex, random.next1(), lighting);
   if (strategy_ != Strategy::scatter) {
     if (!emissive_of(world_).empty()) {
       const glm::vec2 point = random.next2();
@@ -160,11 +163,29 @@ std::optional<PathIntegrator::Vertex> PathIntegrator::scatter_in_fog(const Ray& 
   return Vertex(ray, media_.event_at(ray.origin, ray.direction, t_max, depth, u.y));
 }
 
-PathIntegrator::Incident PathIntegrator::sample_incident(Ray ray, float pdf, SobolSampler& random,
+// Light of sources that comes through a surface. Punctual lights shine through it to the camera
+// alone (`seen`): the surfaces behind which it stands sample these straight through it.
+PathIntegrator::Incident PathIntegrator::light_behind(const Surface& surface,
+                                                      const glm::vec3& to_viewer_ws, bool seen,
+                                                      SobolSampler& random,
+                                                      std::uint64_t& rays) const {
+  Incident incident;
+  if (!samples_lights_behind(surface.transmission)) return incident;
+  const Vertex vertex = Vertex::behind(surface, to_viewer_ws);
+  const Lighting lighting = sample_lights(vertex, random, rays, seen);
+  for (int i = 0; i < lighting.count; ++i) {
+    const Lighting::Sample& light = lighting.samples[i];
+    (light.from_sky ? incident.other : incident.emitted) +=
+        vertex.evaluate(light.to_light_ws).specular * light.weight;
+  }
+  return incident;
+}
+
+PathIntegrator::Incident PathIntegrator::sample_incident(Ray ray, PathSegment traveller,
+                                                         SobolSampler& random,
                                                          std::uint64_t& rays) const {
   Incident incident;
   glm::vec3 throughput(1.0f);
-  PathSegment traveller{pdf, 0.0f, 0};
   for (int bounce = 1;; ++bounce) {
     ++rays;
     const Hit hit = tracer_of(world_).closest_hit(ray);
@@ -178,8 +199,11 @@ PathIntegrator::Incident PathIntegrator::sample_incident(Ray ray, float pdf, Sob
       throughput *= volume_transmittance(surface.transmission, hit.distance);
       (bounce == 1 ? incident.emitted : incident.other) +=
           throughput * emission_found(surface, ray, hit, traveller);
+      traveller.distance += hit.distance;
+      const Incident behind = light_behind(surface, -ray.direction, traveller.seen, random, rays);
+      (bounce == 1 ? incident.emitted : incident.other) += throughput * behind.emitted;
+      incident.other += throughput * behind.other;
       if (cross(surface, ray, throughput, traveller, random)) {
-        traveller.distance += hit.distance;
         --bounce;  // only diffuse and glossy bounces count
         continue;
       }
@@ -199,9 +223,9 @@ PathIntegrator::Incident PathIntegrator::sample_incident(Ray ray, float pdf, Sob
 
     // Scatter, and let Russian roulette end paths of low throughput
     const glm::vec3 direction_ws = vertex.sample(random.next3());
-    pdf = vertex.pdf(direction_ws);
+    const float pdf = vertex.pdf(direction_ws);
     if (!(pdf > 0.0f) || !vertex.is_lit_from(direction_ws)) return incident;
-    traveller = {pdf, 0.0f, traveller.crossed};
+    traveller = {pdf, 0.0f, traveller.crossed, false};
     const ReflectedPair reflected = vertex.evaluate(direction_ws);
     throughput *= (reflected.diffuse + reflected.specular) / pdf;
     if (bounce >= kBouncesBeforeRoulette) {
@@ -216,14 +240,17 @@ PathIntegrator::Incident PathIntegrator::sample_incident(Ray ray, float pdf, Sob
 // Light transmitted through a surface along a camera ray.
 glm::vec3 PathIntegrator::sample_through(const Surface& surface, const Ray& ray,
                                          SobolSampler& random, std::uint64_t& rays) const {
+  const Incident sampled = light_behind(surface, -ray.direction, true, random, rays);
   const ThroughDraw drawn = draw_through(surface.transmission, surface.reflectance,
                                          surface.normal_ws, -ray.direction, random.next3());
-  if (drawn.weight == glm::vec3(0.0f)) return glm::vec3(0.0f);
+  if (drawn.weight == glm::vec3(0.0f)) return sampled.emitted + sampled.other;
   const glm::vec3 side =
       drawn.crosses != 0u ? -surface.geometric_normal_ws : surface.geometric_normal_ws;
+  PathSegment traveller{kFoundByScatteringAlone, 0.0f, 0, true};
+  traveller.cross(surface.transmission, drawn);
   const Incident incident = sample_incident(ray_from(surface.position_ws, side, drawn.direction_ws),
-                                            kFoundByScatteringAlone, random, rays);
-  return drawn.weight * (incident.emitted + incident.other);
+                                            traveller, random, rays);
+  return sampled.emitted + sampled.other + drawn.weight * (incident.emitted + incident.other);
 }
 
 // Light that fog scatters to the camera along a ray, where the optical depth up to `t_max` is
@@ -245,7 +272,7 @@ glm::vec3 PathIntegrator::sample_fog(const Ray& ray, float t_max, float depth, S
   }
   const glm::vec3 direction_ws = vertex.sample(random.next3());
   const Incident incident =
-      sample_incident(vertex.ray_to(direction_ws), vertex.pdf(direction_ws), random, rays);
+      sample_incident(vertex.ray_to(direction_ws), {vertex.pdf(direction_ws)}, random, rays);
   scattered += vertex.reflectance.diffuse * (incident.emitted + incident.other);
   return share * scattered;
 }
@@ -305,7 +332,7 @@ PixelSample PathIntegrator::sample_seen(const Ray& ray, const Hit& hit, SobolSam
   const glm::vec3 direction_ws = vertex.sample(random.next3());
   const float pdf = vertex.pdf(direction_ws);
   if (!(pdf > 0.0f) || !vertex.is_lit_from(direction_ws)) return sample;
-  const Incident incident = sample_incident(vertex.ray_to(direction_ws), pdf, random, rays);
+  const Incident incident = sample_incident(vertex.ray_to(direction_ws), {pdf}, random, rays);
   add(direction_ws, incident.emitted / pdf, incident.other / pdf);
   return sample;
 }
@@ -331,7 +358,7 @@ IrradianceSample PathIntegrator::sample_irradiance(const glm::vec3& position_ws,
   const glm::vec3 direction_ws = vertex.sample(random.next3());
   if (!vertex.is_lit_from(direction_ws)) return sample;
   const Incident incident =
-      sample_incident(vertex.ray_to(direction_ws), vertex.pdf(direction_ws), random, rays);
+      sample_incident(vertex.ray_to(direction_ws), {vertex.pdf(direction_ws)}, random, rays);
   sample.direct += incident.emitted * kPi;  // cosine over its density
   sample.indirect += incident.other * kPi;
   return sample;

@@ -63,11 +63,14 @@ class PathIntegrator {
   struct Lighting;
   struct Incident;
 
-  Lighting sample_lights(const Vertex& vertex, SobolSampler& random, std::uint64_t& rays) const;
+  Lighting sample_lights(const Vertex& vertex, SobolSampler& random, std::uint64_t& rays,
+                         bool with_punctual = true) const;
   void add_punctual(const Vertex& vertex, float u, Lighting& lighting) const;
   void add_emissive(const Vertex& vertex, const glm::vec3& u, Lighting& lighting) const;
   void add_environment(const Vertex& vertex, const glm::vec2& u, Lighting& lighting) const;
   void dim(const Vertex& vertex, Lighting& lighting, std::uint64_t& rays) const;
+  Incident light_behind(const Surface& surface, const glm::vec3& to_viewer_ws, bool seen,
+                        SobolSampler& random, std::uint64_t& rays) const;
   glm::vec3 sample_through(const Surface& surface, const Ray& ray, SobolSampler& random,
                            std::uint64_t& rays) const;
   PixelSample sample_seen(const Ray& ray, const Hit& hit, SobolSampler& random,
@@ -76,7 +79,8 @@ class PathIntegrator {
                        std::uint64_t& rays) const;
   std::optional<Vertex> scatter_in_fog(const Ray& ray, float t_max, SobolSampler& random) const;
 
-  Incident sample_incident(Ray ray, float pdf, SobolSampler& random, std::uint64_t& rays) const;
+  Incident sample_incident(Ray ray, PathSegment traveller, SobolSampler& random,
+                           std::uint64_t& rays) const;
   glm::vec3 sky_found(const glm::vec3& direction_ws, float pdf) const;
   glm::vec3 emission_found(const Surface& surface, const Ray& ray, const Hit& hit,
                            const PathSegment& traveller) const;

@@ -6,6 +6,7 @@
 #include <array>
 #include <glm/glm.hpp>
 
+#include "raytracing/transmission_math.h"
 #include "reference/glass.h"
 #include "reference/path.h"
 #include "shared/brdf.h"
@@ -15,15 +16,16 @@
 
 namespace lambent::reference {
 
-// A point at which a path scatters, on a surface or in fog.
+// A point at which a path scatters, on a surface, through one, or in fog.
 struct PathIntegrator::Vertex {
   glm::vec3 position_ws;
-  glm::vec3 geometric_normal_ws;  // 0: the point is in fog
+  glm::vec3 geometric_normal_ws;  // on the lit side; 0: the point is in fog
   Frame frame;                    // around the shading normal; in fog, around the ray
   glm::vec3 to_viewer;            // in the frame
   Reflectance reflectance;        // in fog the diffuse part is the albedo
   LobeShares shares;
-  float anisotropy = 0.0f;  // of the fog
+  float anisotropy = 0.0f;                   // of the fog
+  Transmission through = no_transmission();  // of surfaces that show the lights behind them
 
   Vertex(const Surface& surface, const glm::vec3& to_viewer_ws, float max_specular_share)
       : position_ws(surface.position_ws),
@@ -32,6 +34,14 @@ struct PathIntegrator::Vertex {
         to_viewer(to_local(frame, to_viewer_ws)),
         reflectance(surface.reflectance),
         shares(limited_shares(lobe_shares(reflectance, to_viewer.z), max_specular_share)) {}
+
+  // A surface that samples_lights_behind().
+  static Vertex behind(const Surface& surface, const glm::vec3& to_viewer_ws) {
+    Vertex vertex(surface, to_viewer_ws, 0.0f);
+    vertex.geometric_normal_ws = -surface.geometric_normal_ws;
+    vertex.through = surface.transmission;
+    return vertex;
+  }
 
   // A vertex in fog, at a scattering event of a ray.
   Vertex(const Ray& ray, const MediumEvent& event)
@@ -44,6 +54,7 @@ struct PathIntegrator::Vertex {
         anisotropy(event.anisotropy) {}
 
   bool in_fog() const { return geometric_normal_ws == glm::vec3(0.0f); }
+  bool transmits() const { return is_transmissive(through); }
   bool is_black() const { return has_no_base(reflectance) && has_no_coat(reflectance); }
   // Light reaches the surface only where it is above the horizon of both normals; a clearcoat has a
   // normal of its own.
@@ -55,6 +66,7 @@ struct PathIntegrator::Vertex {
   float cosine(const glm::vec3& direction_ws) const {
     if (in_fog()) return 1.0f;
     const float cosine = glm::dot(frame.normal, direction_ws);
+    if (transmits()) return -cosine;
     if (!has_clearcoat(reflectance.layers)) return cosine;
     return std::max(cosine,
                     glm::dot(reflectance.layers.clearcoat_normal, to_local(frame, direction_ws)));
@@ -62,6 +74,7 @@ struct PathIntegrator::Vertex {
   // BRDF times cosine, or the phase function times albedo.
   ReflectedPair evaluate(const glm::vec3& direction_ws) const {
     if (in_fog()) return {reflectance.diffuse * pdf(direction_ws), glm::vec3(0.0f)};
+    if (transmits()) return {glm::vec3(0.0f), lobe_through(direction_ws).value};
     return evaluate_reflectance(reflectance, to_viewer, to_local(frame, direction_ws));
   }
   glm::vec3 sample(const glm::vec3& u) const {
@@ -72,7 +85,11 @@ struct PathIntegrator::Vertex {
   }
   float pdf(const glm::vec3& direction_ws) const {
     if (in_fog()) return phase(anisotropy, glm::dot(frame.normal, direction_ws));
+    if (transmits()) return lobe_through(direction_ws).pdf;
     return pdf_lobes(reflectance, to_viewer, shares, to_local(frame, direction_ws));
+  }
+  ThroughLobe lobe_through(const glm::vec3& direction_ws) const {
+    return evaluate_through(through, reflectance, to_viewer, to_local(frame, direction_ws));
   }
   glm::vec3 ray_origin() const {
     return in_fog() ? position_ws : offset_ray_origin(position_ws, geometric_normal_ws);

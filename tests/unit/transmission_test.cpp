@@ -88,6 +88,72 @@ TEST(DrawThrough, OfRoughGlassKeepsToItsSideAndItsEnergy) {
   }
 }
 
+// Weights of multiple importance sampling need the density that rays are drawn with, and samples of
+// lights the lobe: their ratio is the weight of a ray. Both are integrated over the sphere, and
+// over a quarter of it, to which rough panes and boundaries send different shares.
+TEST(EvaluateThrough, IsTheLobeAndTheDensityThatRaysAreDrawnWith) {
+  for (const uint kind : {kCrossesPane, kLeavesVolume}) {
+    Transmission through = volume(kind, kind == kCrossesPane ? 1.0f : 1.5f);
+    through.alpha = 0.3f;
+    through.tint = {0.9f, 0.5f, 0.7f};
+    const Reflectance reflectance = dielectric(1.5f);
+    const Frame frame = make_frame(kUp);
+    const vec3 to_viewer_ws = towards(0.5f), to_viewer = to_local(frame, to_viewer_ws);
+    const vec3 side = to_local(frame, vec3(1.0f, 0.0f, 0.0f));
+    constexpr uint kDraws = 1 << 16;
+    double drawn_share = 0.0, drawn_beside = 0.0;
+    for (uint i = 0; i < kDraws; ++i) {
+      RandomStream random = make_random_stream(i, 0u, 1u);
+      const vec2 u = next_uniform2(random);
+      const ThroughDraw drawn =
+          draw_through(through, reflectance, kUp, to_viewer_ws, vec3(u, next_uniform(random)));
+      if (drawn.crosses == 0u || drawn.weight == vec3(0.0f)) {
+        EXPECT_EQ(drawn.pdf, 0.0f);
+        continue;
+      }
+      const vec3 to_light = to_local(frame, drawn.direction_ws);
+      const ThroughLobe lobe = evaluate_through(through, reflectance, to_viewer, to_light);
+      ASSERT_NEAR(lobe.pdf, drawn.pdf, 0.01f * drawn.pdf) << kind;
+      const vec3 weight = lobe.value / lobe.pdf;
+      ASSERT_NEAR(weight.y, drawn.weight.y, 0.002f) << kind;
+      drawn_share += 1.0 / kDraws;
+      if (dot(to_light, side) < -0.5f) drawn_beside += 1.0 / kDraws;
+    }
+    constexpr int kRings = 400, kSectors = 400;
+    double share = 0.0, beside = 0.0;
+    for (int r = 0; r < kRings; ++r) {
+      for (int s = 0; s < kSectors; ++s) {
+        const float z = -(static_cast<float>(r) + 0.5f) / kRings;
+        const float angle = kTwoPi * (static_cast<float>(s) + 0.5f) / kSectors;
+        const float radius = std::sqrt(1.0f - z * z);
+        const vec3 to_light(radius * std::cos(angle), radius * std::sin(angle), z);
+        const double part = evaluate_through(through, reflectance, to_viewer, to_light).pdf *
+                            static_cast<double>(kTwoPi) / (kRings * kSectors);
+        share += part;
+        if (dot(to_light, side) < -0.5f) beside += part;
+      }
+    }
+    EXPECT_NEAR(share, drawn_share, 0.005) << kind;
+    EXPECT_NEAR(beside, drawn_beside, 0.005) << kind;
+    EXPECT_GT(beside, 0.1) << kind;
+  }
+}
+
+TEST(EvaluateThrough, LeavesToRaysWhatSamplesCannotReach) {
+  Transmission through = volume(kCrossesPane, 1.0f);
+  EXPECT_FALSE(samples_lights_behind(through));  // smooth
+  through.alpha = 0.1f;
+  EXPECT_TRUE(samples_lights_behind(through));
+  through.kind = kEntersVolume;  // light is bent again where it leaves
+  EXPECT_FALSE(samples_lights_behind(through));
+  through.kind = kLeavesVolume;  // an index of 1 does not spread light
+  EXPECT_FALSE(samples_lights_behind(through));
+  through.eta = 1.5f;
+  EXPECT_TRUE(samples_lights_behind(through));
+  through.tint = vec3(0.0f);
+  EXPECT_FALSE(samples_lights_behind(through));
+}
+
 /// A pane across z = 0 and a ball of radius 1 around (0, 0, 3).
 Scene pane_and_ball(bool mirrored) {
   Scene scene;

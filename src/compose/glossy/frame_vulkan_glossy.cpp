@@ -179,7 +179,7 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
   reserve<PixelSurfaceRecord>(paths, "surfaces of paths", m.path_surfaces);
   reserve<vec3>(paths, "diffuse light of paths", m.path_diffuse);
   reserve<vec3>(paths, "specular light of paths", m.path_specular);
-  const bool keeps_behind = keeps_behind_;
+  const bool keeps_behind = keeps_behind_, samples_behind = samples_behind_;
   const bool apart = keeps_behind && draws_behind_glass() > 0;
   const std::size_t drawn = apart ? paths : 0;
   reserve<vec3>(drawn, "drawn light of paths", m.path_drawn);
@@ -219,6 +219,7 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
         static_cast<uint>(request_->settings.emissive_samples)};
     to.run(kernels_.coat_hits, shaded, paths);
     to.barrier();
+    if (samples_behind) sample_lights_behind(to, met, paths, salt, &from);
     ShadeHitsSettings lighting;
     lighting.emissive_samples = request_->settings.reflected_emissive_samples;
     lighting.salt = salt;

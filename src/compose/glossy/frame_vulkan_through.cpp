@@ -13,6 +13,10 @@ void FramePassesVulkan::transmission() {
   reserve<float>(pixels_, "distances of coats behind glass", memory_.coat_distances);
   const uint salt = sample_ ^ kThroughSalt;
   reserve_list(pixels_, memory_.forks);
+  samples_behind_ = has_rough_glass(request_->world.scene());
+  const bool samples_behind = samples_behind_;
+  reserve<vec3>(samples_behind ? pixels_ : 0, "diffuse light of paths", memory_.path_diffuse);
+  reserve<vec3>(samples_behind ? pixels_ : 0, "specular light of paths", memory_.path_specular);
   add("transmission", [=, this](Recorder& to) {
     FrameMemory& m = memory_;
     to.fill(m.path_lists[0].count, 0u);
@@ -23,6 +27,9 @@ void FramePassesVulkan::transmission() {
         m.path_lists[0].list(), {m.coat_distances.address()}, pixels_,
         first_pixel_,           coat_salt(salt, 0u),          request_->settings.seed};
     to.run(kernels_.through_rays, drawn, pixels_);
+    if (!samples_behind) return;
+    to.barrier();
+    sample_lights_behind(to, {drawn.points, drawn.surfaces}, pixels_, drawn.salt, nullptr);
   });
   keeps_behind_ = filters_through(*request_);
   if (keeps_behind_) start_through();
@@ -35,7 +42,28 @@ void FramePassesVulkan::transmission() {
   std::swap(memory_.forks, memory_.path_lists[1]);
   static_assert(kFirstBounceOfForks == 2);  // bounce 2 reads list 1
   follow_all(kFirstBounceOfForks, first_pixel_, salt);
-  keeps_behind_ = false;
+  keeps_behind_ = samples_behind_ = false;
+}
+
+void FramePassesVulkan::sample_lights_behind(Recorder& to, const DevicePixels& seen,
+                                             std::uint32_t count, uint salt,
+                                             const PathBuffers* paths) {
+  FrameMemory& m = memory_;
+  ShadeHitsSettings lighting;
+  lighting.emissive_samples = request_->settings.reflected_emissive_samples;
+  lighting.salt = salt ^ kBehindSalt;
+  lighting.seed = request_->settings.seed;
+  m.gather_shading.light_behind(to, stage(), seen, count, lighting,
+                                {{m.path_diffuse.address()}, {m.path_specular.address()}});
+  const AddBehindLightArguments arguments = {seen.surfaces,
+                                             {m.path_specular.address()},
+                                             {paths != nullptr ? paths->paths.address() : 0},
+                                             {paths != nullptr ? paths->pixels.address() : 0},
+                                             {m.coat_rays.address()},
+                                             count,
+                                             paths != nullptr ? 1u : 0u};
+  to.run(kernels_.add_behind_light, arguments, count);
+  to.barrier();
 }
 
 /// Appends the reflected branches of paths of a list that split at glass.

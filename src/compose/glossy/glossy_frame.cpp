@@ -55,6 +55,7 @@ void find_coat_shares(GBuffer& pixels) {
 void Glossy::start(const GlossySettings& settings, int first_row, std::size_t pixels, uint salt) {
   first_row_ = first_row;
   salt_ = static_cast<uint>(settings.sample) ^ salt;
+  samples_behind_ = salt == kThroughSalt && has_rough_glass(settings.world.scene());
   rays_.assign(pixels, {vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f), 0.0f});
   paths_.start(pixels);
   coat_distances_.assign(pixels, -1.0f);
@@ -233,6 +234,7 @@ std::uint64_t Glossy::follow_all(const GlossySettings& settings, std::uint64_t g
   std::uint64_t traced = 0;
   for (std::uint32_t bounce = first_bounce; going > 0 && bounce <= kMaxPathVertices; ++bounce) {
     traced += follow_rays(settings, bounce);
+    if (samples_behind_) traced += sample_lights_behind(settings, met_, bounce);
     traced += shade_direct(settings.world, met_, lighting, {first_row_, 0},
                            static_cast<int>(coat_salt(salt_, bounce)), false, direct_);
     if (kept.seen != nullptr) keep_behind(settings, kept);

@@ -62,10 +62,15 @@ class Glossy {
   void split_paths(const GlossySettings& settings, std::uint32_t bounce);
   void keep_behind(const GlossySettings& settings, const KeptBehind& kept);
   std::uint64_t send_rays(const GlossySettings& settings, std::span<const GlossyRows> around);
+  /// Adds the light of sources behind rough surfaces, which pixels (bounce 0) or paths hit. Returns
+  /// the number of rays traced.
+  std::uint64_t sample_lights_behind(const GlossySettings& settings, const GBuffer& seen,
+                                     std::uint32_t bounce);
   std::uint64_t follow_rays(const GlossySettings& settings, std::uint32_t bounce);
   std::uint64_t light_hits(const GlossySettings& settings, std::uint32_t bounce);
 
-  uint salt_ = 0;  // of the random numbers
+  uint salt_ = 0;                // of the random numbers
+  bool samples_behind_ = false;  // there may be lights behind rough surfaces to sample
   // One entry for each pixel of the rows around the band
   int first_row_ = 0;
   std::vector<CoatRay> rays_;

@@ -102,12 +102,18 @@ void SeenThrough::clear() {
   light.clear();
 }
 
+bool has_rough_glass(const Scene& scene) {
+  const auto is_rough = [](const Material& material) {
+    if (!is_transmissive(material)) return false;
+    // Bumps that a footprint averages over are roughness, too
+    return material.roughness * material.roughness > kStraightAlpha ||
+           material.normal_texture.texture >= 0;
+  };
+  return std::any_of(scene.materials.begin(), scene.materials.end(), is_rough);
+}
+
 bool shows_rough_glass(const FrameRequest& request) {
-  if (!filters_through(request)) return false;
-  const std::vector<Material>& materials = request.world.scene().materials;
-  return std::any_of(materials.begin(), materials.end(), [](const Material& material) {
-    return is_transmissive(material) && material.roughness * material.roughness > kStraightAlpha;
-  });
+  return filters_through(request) && has_rough_glass(request.world.scene());
 }
 
 void keep_through(const BandSeenThrough& band, SeenThrough& seen) {

@@ -71,6 +71,9 @@ inline bool filters_through(const FrameRequest& request) {
   return request.settings.denoise && tracer_of(request.world).has_glass();
 }
 
+/// Whether some surface of the scene may spread the light that it transmits.
+bool has_rough_glass(const Scene& scene);
+
 /// Whether the scene may have rough glass, so that transmitted light is filtered a second time.
 bool shows_rough_glass(const FrameRequest& request);
 

@@ -11,7 +11,6 @@
 #include "core/parallel.h"
 
 namespace lambent {
-namespace {}  // namespace
 
 /// Draws the rays of pixels whose surfaces transmit light. Returns how many there are.
 std::uint64_t Glossy::send_through(const GlossySettings& settings, const GBuffer& seen) {
@@ -24,7 +23,8 @@ std::uint64_t Glossy::send_through(const GlossySettings& settings, const GBuffer
     RandomStream random = make_random_stream(first_index + static_cast<uint>(i),
                                              coat_salt(salt_, 0u), ~settings.frame.seed);
     CoatPath& path = paths_.paths[i];
-    path = {vec3(1.0f), kNoLightSampling, surface.transmission.alpha, kStageOther, kForksNext};
+    path = {vec3(1.0f), kNoLightSampling, surface.transmission.alpha, kStageThroughGlass,
+            kForksNext};
     const vec2 u = next_uniform2(random);
     const NextRay next =
         extend_through_glass(surface.transmission, surface.reflectance, surface.normal_ws,
@@ -104,7 +104,9 @@ std::uint64_t Glossy::look_through(const GlossySettings& settings, const GlossyR
                                    const KeptBehind& kept, TransmittedLight& light) {
   start(settings, band.first_row, band.pixels.size(), kThroughSalt);
   forks_.start(band.pixels.size());
-  std::uint64_t traced = follow_all(settings, send_through(settings, band.pixels), 1, kept);
+  const std::uint64_t sent = send_through(settings, band.pixels);
+  std::uint64_t traced = samples_behind_ ? sample_lights_behind(settings, band.pixels, 0) : 0;
+  traced += follow_all(settings, sent, 1, kept);
   const auto goes_on = [](const CoatPath& path) { return path.pdf > 0.0f; };
   const auto going = std::count_if(forks_.paths.begin(), forks_.paths.end(), goes_on);
   std::swap(paths_, forks_);

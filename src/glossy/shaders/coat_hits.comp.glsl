@@ -49,6 +49,7 @@ void main() {
   float gi_share = args.has_field != 0u ? surface.gi_share : 0.0f;
   surface.coat_share = regularize_lobe(n_dot_v, gi_share, args.bounce, surface.reflectance, path);
   surface.clearcoat_share = 0.0f;
+  if (samples_lights_behind(path, surface.transmission)) surface.flags |= kSurfaceSamplesBehind;
   args.paths.at[k] = path;
   args.surfaces.at[k] = surface;
   args.points.at[k].random_index = args.first_index + i;

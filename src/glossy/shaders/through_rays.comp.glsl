@@ -16,9 +16,12 @@ void main() {
   args.coat_distances.at[i] = -1.0f;
   PixelSurfaceRecord surface = args.surfaces.at[i];
   if ((surface.flags & kSurfaceMissed) != 0u || !is_transmissive(surface.transmission)) return;
+  if (samples_lights_behind(surface.transmission)) {
+    args.surfaces.at[i].flags = surface.flags | kSurfaceSamplesBehind;
+  }
   LitPointRecord point = args.points.at[i];
   RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
-  CoatPath path = CoatPath(vec3(1.0f), kNoLightSampling, surface.transmission.alpha, kStageOther,
+  CoatPath path = CoatPath(vec3(1.0f), kNoLightSampling, surface.transmission.alpha, kStageThroughGlass,
                            kForksNext);
   vec2 u = next_uniform2(random);
   NextRay next = extend_through_glass(surface.transmission, surface.reflectance, point.normal_ws,

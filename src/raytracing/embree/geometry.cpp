@@ -22,6 +22,7 @@ bool stops_at_glass(const Scene& scene, const SeenTriangle& seen, float distance
   const vec3 share = straight_share_of(scene, seen, direction_ws);
   if (share == vec3(0.0f)) return true;
   if (query.kind == Query::Kind::occlusion) return false;
+  if (stops_at_bends(query.ray.mask) && bends_light(scene, seen)) return true;
   query.through *= crosses ? share / passing_probability(share) : share;
   // A volume is entered and left: the difference of the distances is the path through it
   const Material& material =

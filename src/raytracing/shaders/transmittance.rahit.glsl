@@ -25,6 +25,9 @@ void main() {
   vec3 share = straight_share_at(args.scene, instance, triangle, barycentrics, from_front,
                                  gl_WorldRayDirectionEXT);
   if (share == vec3(0.0f)) return;
+  if (light.stops_at_bends != 0u && bends_light_at(args.scene, instance, triangle, barycentrics)) {
+    return;
+  }
   light.through *= light.crosses != 0u ? share / passing_probability(share) : share;
   // A volume is entered and left: the difference of the distances is the path through it
   if (bounds_volume(material)) {

@@ -16,7 +16,8 @@ void main() {
   if (i >= args.count) return;
   RayRecord ray = args.rays.at[i];
   if (args.to_hits != 0u) ray.t_max = before_hit(args.hits.at[i].distance);
-  light = TransmittancePayload(vec3(1.0f), vec3(0.0f), crosses_glass(ray.mask) ? 1u : 0u, 0u);
+  light = TransmittancePayload(vec3(1.0f), vec3(0.0f), crosses_glass(ray.mask) ? 1u : 0u,
+                               stops_at_bends(ray.mask) ? 1u : 0u, 0u);
   uint mask = device_mask(ray.mask);
   if (mask != 0u && ray.t_min <= ray.t_max) {
     // A ray counts as stopped unless the miss shader runs, as no shader runs at hits

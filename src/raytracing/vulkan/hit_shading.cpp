@@ -7,6 +7,7 @@
 #include "shaders/collect_irradiance_comp.h"
 #include "shaders/collect_reflected_comp.h"
 #include "shaders/hit_surfaces_comp.h"
+#include "shaders/light_behind_comp.h"
 #include "shaders/light_irradiance_comp.h"
 #include "shaders/light_reflected_comp.h"
 #include "shaders/pixel_surfaces_comp.h"
@@ -27,6 +28,7 @@ HitShadingKernels::HitShadingKernels(const vulkan::Device& device)
       pixel_surfaces(device, shaders::pixel_surfaces_comp(), "pixel surfaces"),
       light_irradiance(device, shaders::light_irradiance_comp(), "light as irradiance"),
       light_reflected(device, shaders::light_reflected_comp(), "light as reflected"),
+      light_behind(device, shaders::light_behind_comp(), "light behind surfaces"),
       collect_irradiance(device, shaders::collect_irradiance_comp(), "collect irradiance"),
       collect_reflected(device, shaders::collect_reflected_comp(), "collect reflected light") {}
 
@@ -202,12 +204,26 @@ void HitShading::reflected_light(vulkan::Recorder& recorder, const DeviceStage& 
                                  const DevicePixels& pixels, std::uint32_t count,
                                  const ShadeHitsSettings& settings,
                                  const DeviceReflectedLight& out) {
+  light_to_viewer(recorder, stage, pixels, count, settings, kernels_.light_reflected, out);
+}
+
+void HitShading::light_behind(vulkan::Recorder& recorder, const DeviceStage& stage,
+                              const DevicePixels& pixels, std::uint32_t count,
+                              const ShadeHitsSettings& settings, const DeviceReflectedLight& out) {
+  light_to_viewer(recorder, stage, pixels, count, settings, kernels_.light_behind, out);
+}
+
+/// Records one of the kernels that draw light to the viewer, its shadow rays, and the sums.
+void HitShading::light_to_viewer(vulkan::Recorder& recorder, const DeviceStage& stage,
+                                 const DevicePixels& pixels, std::uint32_t count,
+                                 const ShadeHitsSettings& settings, const vulkan::Kernel& kernel,
+                                 const DeviceReflectedLight& out) {
   recorder.bind_textures(stage.scene.textures());
   for_each_chunk(stage.scene, count, settings, true, [&](const Chunk& chunk) {
     LightDrawsArguments arguments = draws(stage, pixels.points, chunk, settings);
     arguments.pairs.address = unoccluded_memory_.address();
     arguments.surfaces = pixels.surfaces;
-    recorder.run(kernels_.light_reflected, arguments, chunk.count);
+    recorder.run(kernel, arguments, chunk.count);
     trace_shadows(recorder, stage, chunk);
     CollectArguments collect = collecting(stage, chunk);
     collect.pairs.address = unoccluded_memory_.address();

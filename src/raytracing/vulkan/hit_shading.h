@@ -83,7 +83,8 @@ struct DeviceReflectedLight {
 struct HitShadingKernels {
   explicit HitShadingKernels(const vulkan::Device& device);
   vulkan::Kernel hit_surfaces, pixel_surfaces;
-  vulkan::Kernel light_irradiance, light_reflected, collect_irradiance, collect_reflected;
+  vulkan::Kernel light_irradiance, light_reflected, light_behind;
+  vulkan::Kernel collect_irradiance, collect_reflected;
 };
 
 /// Kernels of shading, and memory that passes use in turn. The memory may grow while passes are
@@ -116,6 +117,12 @@ class HitShading {
                        const DevicePixels& pixels, std::uint32_t count,
                        const ShadeHitsSettings& settings, const DeviceReflectedLight& out);
 
+  /// Records the light of sources behind surfaces with kSurfaceSamplesBehind: `out.specular` is
+  /// what they transmit to the viewer. Of `out`, it writes `diffuse` and `specular` alone.
+  void light_behind(vulkan::Recorder& recorder, const DeviceStage& stage,
+                    const DevicePixels& pixels, std::uint32_t count,
+                    const ShadeHitsSettings& settings, const DeviceReflectedLight& out);
+
   /// Copies the number of shadow rays traced since the last call into the buffer (one word), and
   /// resets the count.
   void take_ray_count(vulkan::Recorder& recorder, const vulkan::Buffer& count) const;
@@ -128,6 +135,10 @@ class HitShading {
     std::uint32_t sky_slots;       // further ones for the sky: 0 or 1
     std::uint32_t all_slots() const { return slots + sky_slots; }
   };
+  void light_to_viewer(vulkan::Recorder& recorder, const DeviceStage& stage,
+                       const DevicePixels& pixels, std::uint32_t count,
+                       const ShadeHitsSettings& settings, const vulkan::Kernel& kernel,
+                       const DeviceReflectedLight& out);
   template <class Work>
   void for_each_chunk(const DeviceScene& scene, std::uint32_t count,
                       const ShadeHitsSettings& settings, bool samples_sky, Work work);

@@ -32,10 +32,11 @@ struct EngineTraceArguments {
 
 /// The light along a ray, as far as the ray has been traced.
 struct TransmittancePayload {
-  vec3 through;        ///< Share that passes the surfaces so far.
-  vec3 optical_depth;  ///< Sum over the volumes on the path.
-  uint crosses;        ///< 1: see crosses_glass().
-  uint stopped;        ///< 1: an opaque surface stops it.
+  vec3 through;         ///< Share that passes the surfaces so far.
+  vec3 optical_depth;   ///< Sum over the volumes on the path.
+  uint crosses;         ///< 1: see crosses_glass().
+  uint stops_at_bends;  ///< 1: see stops_at_bends().
+  uint stopped;         ///< 1: an opaque surface stops it.
 };
 
 /// Rays may be infinite; on devices they are traced no farther than this [m].
