@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raytracing/shade_hits.h"
 
+#include <algorithm>
 #include <cassert>
 
+#include "core/simd.h"
 #include "raytracing/surface.h"
 #include "raytracing/world_access.h"
 #include "scene/environment_sampling.h"
@@ -10,21 +12,39 @@
 namespace lambent {
 namespace {
 
-/// Draws the candidates of direct light at a point and queues their shadow rays.
-void queue_direct_light(const World& world, const DirectLightQuery& query, std::size_t place,
-                        const ShadeHitsSettings& settings, ShadeHitsScratch& scratch) {
-  const LitPoint& point = query.point;
-  RandomStream random =
-      make_random_stream(static_cast<std::uint32_t>(query.index), settings.salt, settings.seed);
-  const LightDraws draws{world, settings.emissive_samples, false, settings.candidates};
-  const SeenShape shape = seen_shape(point);
-  const LightReceiver receiver{point, nullptr, nullptr, shape};
-  for_each_light(draws, receiver, random, [&](const LightCandidate& light) {
-    const glm::vec3 irradiance = unoccluded_irradiance(point, shape, light);
-    if (irradiance == glm::vec3(0.0f)) return;
-    scratch.pending.push_back({place, irradiance});
-    scratch.shadow_rays.push_back(shadow_ray(point.position_ws, point.geometric_normal_ws, light));
-  });
+// Kernels are inlined as a whole: their formulas pass large records by value.
+#define LAMBENT_SHADING_KERNEL LAMBENT_SIMD_CLONES __attribute__((flatten))
+
+/// Draws the candidates of direct light at points and queues their shadow rays.
+LAMBENT_SHADING_KERNEL void queue_direct_light(const World& world,
+                                               std::span<const DirectLightQuery> queries,
+                                               const ShadeHitsSettings& settings,
+                                               ShadeHitsScratch& scratch) {
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const std::size_t place = i;
+    const DirectLightQuery& query = queries[i];
+    const LitPoint& point = query.point;
+    RandomStream random =
+        make_random_stream(static_cast<std::uint32_t>(query.index), settings.salt, settings.seed);
+    const LightDraws draws{world, settings.emissive_samples, false, settings.candidates};
+    const SeenShape shape = seen_shape(point);
+    const LightReceiver receiver{point, nullptr, nullptr, shape};
+    for_each_light(draws, receiver, random, [&](const LightCandidate& light) {
+      const glm::vec3 irradiance = unoccluded_irradiance(point, shape, light);
+      if (irradiance == glm::vec3(0.0f)) return;
+      scratch.pending.push_back({place, irradiance});
+      scratch.shadow_rays.push_back(
+          shadow_ray(point.position_ws, point.geometric_normal_ws, light));
+    });
+  }
+}
+
+/// Stores the part of a surface's shading that needs no light.
+LAMBENT_SHADING_KERNEL void store_surface(const Surface& surface, const glm::vec3& direction,
+                                          float max_albedo, uint from_inside, ShadedHit& result) {
+  result.point = {surface.position_ws, surface.normal_ws, surface.geometric_normal_ws,
+                  encode_albedo_shape(surface.reflectance), -direction};
+  result.surface = shaded_surface(surface, direction, max_albedo, from_inside);
 }
 
 /// Finds the share of light that passes along rays which may cross glass.
@@ -46,10 +66,8 @@ std::size_t direct_irradiance(const World& world, std::span<const DirectLightQue
   assert(queries.size() == irradiance.size());
   scratch.shadow_rays.clear();
   scratch.pending.clear();
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    irradiance[i] = glm::vec3(0.0f);
-    queue_direct_light(world, queries[i], i, settings, scratch);
-  }
+  std::fill(irradiance.begin(), irradiance.end(), glm::vec3(0.0f));
+  queue_direct_light(world, queries, settings, scratch);
   // Add the light that arrives
   scratch.shadows.trace(tracer_of(world), scratch.shadow_rays);
   for (std::size_t i = 0; i < scratch.pending.size(); ++i) {
@@ -85,11 +103,9 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
     // Store the surface
     const Surface surface =
         surface_at(scene, rays[i], hits[i], settings.cone_width * hits[i].distance);
-    result.point = {surface.position_ws, surface.normal_ws, surface.geometric_normal_ws,
-                    encode_albedo_shape(surface.reflectance), -direction};
     const bool from_inside =
         settings.solid_sides != nullptr && settings.solid_sides->is_solid(hits[i]);
-    result.surface = shaded_surface(surface, direction, settings.max_albedo, from_inside ? 1u : 0u);
+    store_surface(surface, direction, settings.max_albedo, from_inside ? 1u : 0u, result);
 
     if (glass) {
       // Rays that a pane stopped also stand for those that it let pass

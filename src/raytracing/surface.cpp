@@ -30,14 +30,20 @@ bool bounds_volume(const Material& material) {
 
 #include "raytracing/surface.inl.h"
 
+/// surface_at() as one function: its formulas pass large records by value.
+__attribute__((flatten)) Surface inlined_surface_at(const Scene& scene, const vec3& direction_ws,
+                                                    const Hit& hit, const Footprint& footprint) {
+  return surface_at(scene, direction_ws, hit, footprint);
+}
+
 }  // namespace
 
 Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, float footprint) {
-  return surface_at(scene, ray.direction, hit, Footprint{footprint, 0u});
+  return inlined_surface_at(scene, ray.direction, hit, Footprint{footprint, 0u});
 }
 
 Surface seen_surface_at(const Scene& scene, const Ray& ray, const Hit& hit, float footprint) {
-  return surface_at(scene, ray.direction, hit, Footprint{footprint, 1u});
+  return inlined_surface_at(scene, ray.direction, hit, Footprint{footprint, 1u});
 }
 
 vec3 straight_share_of(const Scene& scene, const SeenTriangle& seen, const vec3& direction_ws) {

@@ -208,6 +208,31 @@ TEST(Corrections, ForgetWhatIsNeverConfirmed) {
   EXPECT_LT(table.blocks().size(), known / 10);
 }
 
+TEST(Corrections, PickedTogetherAreThoseByThemselves) {
+  // Few samples, so that some points read coarser levels, and some none
+  const CorrectionTable table =
+      taught(samples_on_floor(2000, [](float x) { return x < 0.0f ? 0.5f : 1.25f; }));
+  const ProbeGrid probes = grid();
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> place(-3.2f, 3.2f);
+  std::size_t corrected = 0;
+  for (std::size_t count = 1; count <= kMostPicked; ++count) {
+    std::vector<CorrectionPoint> points;
+    for (std::size_t i = 0; i < count; ++i) {
+      const vec3 normal = i % 5 == 0 ? vec3(0.6f, 0.8f, 0.0f) : kUp;
+      points.push_back({&probes, 0, {place(random), 0.01f, place(random)}, normal});
+    }
+    std::vector<float> ratios(count);
+    table.picked_at(points, ratios);
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_EQ(ratios[i],
+                read(table, points[i].position_ws, points[i].normal_ws, CorrectionUse::picked));
+      corrected += ratios[i] != 1.0f ? 1 : 0;
+    }
+  }
+  EXPECT_GT(corrected, 50u);
+}
+
 TEST(Corrections, LearnAtOneSurfelOfEachRun) {
   for (const uint number : {1u, kFilledTraining, kSettledTraining}) {
     const uint stride = training_stride(number);

@@ -20,6 +20,24 @@ namespace {
 
 using test::many_lights;
 
+// What light_tree.inl.h requires: the loop over the single nodes of groups.
+using LightTreeRef = const LightGroups&;
+uint light_tree_size(const LightGroups& groups) {
+  return static_cast<uint>(groups.nodes().size());
+}
+uint fetch_group_link(const LightGroups& groups, uint group, uint child) {
+  return groups.nodes()[group * kLightGroupSize + child].link;
+}
+void group_importances(const LightGroups& groups, uint group, const vec3& position_ws,
+                       const vec3& normal_ws, const PickLobe& lobe, float* importances) {
+  for (uint k = 0; k < kLightGroupSize; ++k) {
+    importances[k] =
+        light_importance(groups.nodes()[group * kLightGroupSize + k], position_ws, normal_ws, lobe);
+  }
+}
+
+#include "scene/light_tree/light_tree.inl.h"
+
 struct Lights {
   explicit Lights(const Scene& scene) : emissive(scene), tree(scene, emissive) {}
   void update(const Scene& scene) {
@@ -126,6 +144,31 @@ TEST(LightTree, PicksTogetherAreThoseByThemselves) {
   }
 }
 
+TEST(LightTree, PicksAsTheLoopOverSingleNodes) {
+  const Lights lights(many_lights(40));
+  RandomStream random = make_random_stream(7u, 4u, 5u);
+  for (int i = 0; i < 500; ++i) {
+    const LitPoint point = random_point(random);
+    PickLobe lobe = i % 2 == 0 ? no_pick_lobe() : shiny_lobe(point.normal_ws, random);
+    const PickLobe bounded = lights.tree.bounded(point.position_ws, point.normal_ws, lobe);
+    lobe = bounded_lobe(lights.tree.groups(), point.position_ws, point.normal_ws, lobe);
+    EXPECT_EQ(bounded.specular, lobe.specular);
+    LightPicks picks, expected;
+    for (std::uint32_t k = 0; k < kCandidates; ++k) {
+      picks.at[k].rest = (static_cast<float>(k) + next_uniform(random)) / kCandidates;
+      expected.at[k].rest = picks.at[k].rest;
+    }
+    lights.tree.pick(point.position_ws, point.normal_ws, lobe, kCandidates, picks);
+    pick_lights(lights.tree.groups(), point.position_ws, point.normal_ws, lobe, kCandidates,
+                expected);
+    for (std::uint32_t k = 0; k < kCandidates; ++k) {
+      EXPECT_EQ(picks.at[k].light, expected.at[k].light);
+      EXPECT_EQ(picks.at[k].probability, expected.at[k].probability);
+      EXPECT_EQ(picks.at[k].rest, expected.at[k].rest);
+    }
+  }
+}
+
 TEST(LightTree, LooksAtGroupsAsAtSingleNodes) {
   const Lights lights(many_lights(40));
   const LightGroups& groups = lights.tree.groups();
@@ -138,8 +181,8 @@ TEST(LightTree, LooksAtGroupsAsAtSingleNodes) {
     const PickLobe lobe =
         i % 2 == 0 || i % 5 == 0 ? no_pick_lobe() : shiny_lobe(point.normal_ws, random);
     float importances[kLightGroupSize];
-    group_importances(groups.numbers(static_cast<std::uint32_t>(group)), point.position_ws,
-                      point.normal_ws, lobe, importances);
+    lambent::group_importances(groups.numbers(static_cast<std::uint32_t>(group)), point.position_ws,
+                               point.normal_ws, lobe, importances);
     for (std::size_t k = 0; k < kLightGroupSize; ++k) {
       const LightTreeNode& node = groups.nodes()[group * kLightGroupSize + k];
       EXPECT_EQ(importances[k], light_importance(node, point.position_ws, point.normal_ws, lobe));

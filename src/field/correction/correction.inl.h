@@ -75,17 +75,13 @@ LAMBENT_FN float correction_at(CorrectionsRef table, ProbeGrid grid, uint volume
   return ratio + left * last;
 }
 
-/// Like correction_at(), but reads a single cell, which a hash of the position picks. For many
-/// lookups of which only the mean matters. Its expectation is about the same.
-LAMBENT_FN float picked_correction(CorrectionsRef table, ProbeGrid grid, uint volume,
-                                   vec3 position_ws, vec3 normal_ws) {
-  vec3 pick = correction_pick(grid, position_ws);
-  uint axis = correction_axis(normal_ws * grid.axes, pick.x);
-  vec3 coords = correction_coords(grid, position_ws);
-  for (uint level = 0u; level < uint(kCorrectionLevels); ++level) {
-    ivec3 cell = ivec3(floor(coords + pick - vec3(0.5f)));
-    ivec3 block = ivec3(cell.x >> 1, cell.y >> 1, cell.z >> 1);
-    uint slot = find_block(table, correction_key(block, axis, level, volume));
+/// The ratio of the cell that `pick` picks around a point, of the finest of the levels from `first`
+/// on that has samples there. `coords` are in cells of level `first`.
+LAMBENT_FN float picked_from_level(CorrectionsRef table, vec3 coords, vec3 pick, uint axis,
+                                   uint volume, uint first) {
+  for (uint level = first; level < uint(kCorrectionLevels); ++level) {
+    ivec3 cell = picked_cell(coords, pick);
+    uint slot = find_block(table, correction_key(block_of_cell(cell), axis, level, volume));
     if (slot != kNoCorrectionBlock) {
       CorrectionCell held = decode_correction(fetch_refined(table, slot, cell_of_block(cell)));
       if (held.samples > 0.0f) return held.ratio;
@@ -93,6 +89,15 @@ LAMBENT_FN float picked_correction(CorrectionsRef table, ProbeGrid grid, uint vo
     coords *= 1.0f / kCorrectionGrowth;
   }
   return 1.0f;
+}
+
+/// Like correction_at(), but reads a single cell, which a hash of the position picks. For many
+/// lookups of which only the mean matters. Its expectation is about the same.
+LAMBENT_FN float picked_correction(CorrectionsRef table, ProbeGrid grid, uint volume,
+                                   vec3 position_ws, vec3 normal_ws) {
+  vec3 pick = correction_pick(grid, position_ws);
+  uint axis = correction_axis(normal_ws * grid.axes, pick.x);
+  return picked_from_level(table, correction_coords(grid, position_ws), pick, axis, volume, 0u);
 }
 
 /// The ratio of the level above `level` at the centre of one of its cells.

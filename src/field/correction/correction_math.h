@@ -140,6 +140,16 @@ LAMBENT_FN vec3 correction_pick(ProbeGrid grid, vec3 position_ws) {
   return vec3(uniform_from_bits(mixed.x), uniform_from_bits(mixed.y), uniform_from_bits(mixed.z));
 }
 
+/// The cell that `pick` picks around a point, which is given in cells of the same level.
+LAMBENT_FN ivec3 picked_cell(vec3 coords, vec3 pick) {
+  return ivec3(floor(coords + pick - vec3(0.5f)));
+}
+
+/// The block of a cell.
+LAMBENT_FN ivec3 block_of_cell(ivec3 cell) {
+  return ivec3(cell.x >> 1, cell.y >> 1, cell.z >> 1);
+}
+
 /// The centre of a cell, in cells of the next coarser level.
 LAMBENT_FN vec3 coarser_coords(ivec3 cell) {
   return (vec3(cell) + vec3(0.5f)) / kCorrectionGrowth;

@@ -138,6 +138,54 @@ __attribute__((flatten)) float CorrectionTable::at(const ProbeGrid& grid, int vo
   return picked_correction(table, grid, of, position_ws, normal_ws);
 }
 
+__attribute__((flatten)) void CorrectionTable::picked_at(std::span<const CorrectionPoint> points,
+                                                         std::span<float> ratios) const {
+  assert(points.size() == ratios.size() && points.size() <= kMostPicked);
+  std::fill(ratios.begin(), ratios.end(), 1.0f);
+  if (empty_) return;
+  struct Picked {
+    vec3 coords, pick;
+    uint axis;
+    CorrectionKey key;
+    int cell;
+    uint slot;  // the first one of the bucket, then that of the block
+  };
+  std::array<Picked, kMostPicked> all;
+  const Corrections table = {keys_.data(), refined_.data(),
+                             static_cast<uint>(keys_.size() / kCorrectionBucket)};
+  // Find the bucket of each point's finest cell
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const CorrectionPoint& point = points[i];
+    Picked& picked = all[i];
+    picked.pick = correction_pick(*point.grid, point.position_ws);
+    picked.axis = correction_axis(point.normal_ws * point.grid->axes, picked.pick.x);
+    picked.coords = correction_coords(*point.grid, point.position_ws);
+    const ivec3 cell = picked_cell(picked.coords, picked.pick);
+    picked.cell = cell_of_block(cell);
+    picked.key =
+        correction_key(block_of_cell(cell), picked.axis, 0u, static_cast<uint>(point.volume));
+    picked.slot = correction_bucket(picked.key, table.buckets);
+    __builtin_prefetch(&table.keys[picked.slot]);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Picked& picked = all[i];
+    picked.slot = slot_in_bucket(table, picked.slot, picked.key);
+    if (picked.slot != kNoCorrectionBlock) __builtin_prefetch(&table.refined[picked.slot]);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Picked& picked = all[i];
+    CorrectionCell held = {1.0f, 0.0f};
+    if (picked.slot != kNoCorrectionBlock) {
+      held = decode_correction(fetch_refined(table, picked.slot, picked.cell));
+    }
+    ratios[i] =
+        held.samples > 0.0f
+            ? held.ratio
+            : picked_from_level(table, picked.coords * (1.0f / kCorrectionGrowth), picked.pick,
+                                picked.axis, static_cast<uint>(points[i].volume), 1u);
+  }
+}
+
 std::size_t CorrectionTable::claim(const CorrectionKey& key) {
   const std::size_t first =
       correction_bucket(key, static_cast<uint>(keys_.size() / kCorrectionBucket));
@@ -153,9 +201,9 @@ std::size_t CorrectionTable::claim(const CorrectionKey& key) {
 
 /// Computes the ratios that lookups read from a block. Those of coarser levels must be computed
 /// already.
-void CorrectionTable::refine(std::size_t slot) {
+void CorrectionTable::refine(std::size_t slot, RecentBlocks& recent) {
   const Corrections table = {keys_.data(), refined_.data(),
-                             static_cast<uint>(keys_.size() / kCorrectionBucket)};
+                             static_cast<uint>(keys_.size() / kCorrectionBucket), &recent};
   const CorrectionKey key = keys_[slot];
   for (int k = 0; k < kCellCorners; ++k) {
     refined_[slot][k] = refined_cell(table, key, k, learned_[slot - first_slot_][k]);
@@ -230,9 +278,11 @@ void CorrectionTable::share_refined(uint level) {
 void CorrectionTable::refine_all() {
   for (int level = kCorrectionLevels - 1; level >= 0; --level) {
     parallel_chunks(learned_.size(), kBucketsPerTask, [&](std::size_t begin, std::size_t end) {
+      // The cells of a block have coarser blocks in common
+      RecentBlocks recent;
       for (std::size_t slot = first_slot_ + begin; slot < first_slot_ + end; ++slot) {
         const bool used = keys_[slot].rest != 0;
-        if (used && level_of_key(keys_[slot]) == static_cast<uint>(level)) refine(slot);
+        if (used && level_of_key(keys_[slot]) == static_cast<uint>(level)) refine(slot, recent);
       }
     });
     share_refined(static_cast<uint>(level));

@@ -24,6 +24,17 @@ struct CorrectionSample {
   float pick;        ///< Uniform in [0, 1): picks an axis of the normal.
 };
 
+/// A point at which a correction is read.
+struct CorrectionPoint {
+  const ProbeGrid* grid;  ///< Of the volume.
+  int volume;             ///< Index of the volume of the lookup.
+  vec3 position_ws;       ///< [m]
+  vec3 normal_ws;         ///< Unit.
+};
+
+// The most points that picked_at() takes at once: memory answers about this many reads at a time.
+inline constexpr std::size_t kMostPicked = 16;
+
 /// A block as files store it.
 struct CorrectionBlock {
   CorrectionKey key;
@@ -75,6 +86,10 @@ class CorrectionTable {
   float at(const ProbeGrid& grid, int volume, const vec3& position_ws, const vec3& normal_ws,
            CorrectionUse use, RecentBlocks* recent = nullptr) const;
 
+  /// The factors of at() for CorrectionUse::picked at several points, at most kMostPicked. Reads of
+  /// one point overlap with those of the others.
+  void picked_at(std::span<const CorrectionPoint> points, std::span<float> ratios) const;
+
   /// Adds the samples of update `number`, each to a cell of every level. Samples of blocks for
   /// which there is no room are discarded. The order of samples does not matter.
   void learn(std::span<const ProbeGrid> grids, std::span<const CorrectionSample> samples,
@@ -103,7 +118,7 @@ class CorrectionTable {
   std::size_t claim(const CorrectionKey& key);
   void list_items(std::span<const ProbeGrid> grids, std::span<const CorrectionSample> samples,
                   float mean);
-  void refine(std::size_t slot);
+  void refine(std::size_t slot, RecentBlocks& recent);
   void refine_all();
   void share_refined(uint level);
   bool has_slot(std::size_t slot) const {

@@ -2,6 +2,7 @@
 #include "field/lookup/lookup_volumes.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <numeric>
 
@@ -70,17 +71,39 @@ std::uint64_t find_uncorrected(const ProbeStore& store, const VisibilityRays& by
   return visible_corner_weights(store, 0, by, queries, result.corners);
 }
 
+/// Multiplies the weights of lookups by a correction each, which their positions pick.
+void correct_by_picks(const ProbeStore& store, const VisibilityRays& by,
+                      std::span<const FieldQuery> queries, QueryWeights& weights) {
+  std::array<CorrectionPoint, kMostPicked> points;
+  std::array<float, kMostPicked> ratios;
+  for (std::size_t first = 0; first < weights.corners.size(); first += kMostPicked) {
+    const std::size_t count = std::min(kMostPicked, weights.corners.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const FieldQuery& query = queries[weights.query[first + i]];
+      const int volume = static_cast<int>(weights.corners[first + i].table) / kCellWraps;
+      points[i] = {&store.grid(volume), volume, query.position_ws, query.normal_ws};
+    }
+    by.correction->picked_at(std::span(points).first(count), std::span(ratios).first(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      for (float& weight : weights.corners[first + i].weight) weight *= ratios[i];
+    }
+  }
+}
+
 /// Multiplies the weights of lookups by the corrections at their points.
 void correct_weights(const ProbeStore& store, const VisibilityRays& by,
                      std::span<const FieldQuery> queries, QueryWeights& weights) {
+  if (by.correction_use == CorrectionUse::picked) {
+    correct_by_picks(store, by, queries, weights);
+    return;
+  }
   RecentBlocks blocks;
-  RecentBlocks* const recent = by.correction_use == CorrectionUse::smooth ? &blocks : nullptr;
   for (std::size_t i = 0; i < weights.corners.size(); ++i) {
     CornerWeights& corners = weights.corners[i];
     const FieldQuery& query = queries[weights.query[i]];
     const int volume = static_cast<int>(corners.table) / kCellWraps;
     const float ratio = by.correction->at(store.grid(volume), volume, query.position_ws,
-                                          query.normal_ws, by.correction_use, recent);
+                                          query.normal_ws, by.correction_use, &blocks);
     for (float& weight : corners.weight) weight *= ratio;
   }
 }

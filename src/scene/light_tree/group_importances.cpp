@@ -3,6 +3,7 @@
 
 #include "core/simd_levels.h"
 #include "shared/packing.h"
+#include "shared/random.h"
 
 namespace lambent {
 namespace {
@@ -29,8 +30,20 @@ void store_in_group(const LightTreeNode& node, std::size_t child, float* group) 
 
 void group_importances(const float* group, const vec3& position_ws, const vec3& normal_ws,
                        const PickLobe& lobe, float* importances) {
-  static const auto kernel = LAMBENT_BEST_LEVEL(group_importances);
+  static const auto kernel = LAMBENT_BEST_LEVEL(importances_in_group);
   kernel(group, position_ws, normal_ws, lobe, importances);
+}
+
+void pick_in_groups(const GroupNumbers& tree, const vec3& position_ws, const vec3& normal_ws,
+                    const PickLobe& lobe, uint count, LightPicks& picks) {
+  static const auto kernel = LAMBENT_BEST_LEVEL(pick_in_groups);
+  kernel(tree, position_ws, normal_ws, lobe, count, picks);
+}
+
+PickLobe bounded_in_groups(const GroupNumbers& tree, const vec3& position_ws, const vec3& normal_ws,
+                           const PickLobe& lobe) {
+  static const auto kernel = LAMBENT_BEST_LEVEL(bounded_in_groups);
+  return kernel(tree, position_ws, normal_ws, lobe);
 }
 
 }  // namespace lambent

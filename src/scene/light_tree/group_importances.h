@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the importances of all nodes of a group at once.
+// Picks lights from the groups of a tree; the importances of all nodes of a group are computed at
+// once.
 #pragma once
 
 #include <cstddef>
@@ -20,6 +21,20 @@ void store_in_group(const LightTreeNode& node, std::size_t child, float* group);
 /// instruction sets.
 void group_importances(const float* group, const vec3& position_ws, const vec3& normal_ws,
                        const PickLobe& lobe, float* importances);
+
+/// The groups of a tree, kGroupFloats each.
+struct GroupNumbers {
+  const float* first;
+  uint count;
+
+  const float* at(uint group) const { return first + group * kGroupFloats; }
+};
+
+/// pick_lights() and bounded_lobe() of light_tree.inl.h; the same bits on all instruction sets.
+void pick_in_groups(const GroupNumbers& tree, const vec3& position_ws, const vec3& normal_ws,
+                    const PickLobe& lobe, uint count, LightPicks& picks);
+PickLobe bounded_in_groups(const GroupNumbers& tree, const vec3& position_ws, const vec3& normal_ws,
+                           const PickLobe& lobe);
 
 /// LightTreeNode::link of a node of a group.
 inline uint link_in_group(const float* group, uint child) {

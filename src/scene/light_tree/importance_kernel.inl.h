@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// group_importances for one instruction set: see core/simd_levels.h.
+// importances_in_group and pick_in_groups for one instruction set: see core/simd_levels.h.
 #include "core/lanes.inl.h"
 
 LAMBENT_FORCE_INLINE Lanes root(const Lanes& x) {
@@ -10,6 +10,7 @@ LAMBENT_FORCE_INLINE Lanes root(const Lanes& x) {
   load(lanes, roots);
   return lanes;
 }
+using lambent::max;
 LAMBENT_FORCE_INLINE Lanes max(const Lanes& a, float b) {
   const Lanes other = Lanes{} + b;
   return a > other ? a : other;
@@ -27,10 +28,41 @@ LAMBENT_FORCE_INLINE vec3 abs(const vec3& v) {
 #undef Real
 #undef LAMBENT_REAL_FN
 
-static void group_importances(const float* group, const vec3& position_ws, const vec3& normal_ws,
-                              const PickLobe& lobe, float* importances) {
+static void importances_in_group(const float* group, const vec3& position_ws, const vec3& normal_ws,
+                                 const PickLobe& lobe, float* importances) {
   static_assert(sizeof(ClusterNumbers) == kGroupNumbers * sizeof(Lanes));
   ClusterNumbers numbers;
   __builtin_memcpy(&numbers, group, sizeof(numbers));
   store(importances, importance_of(numbers, position_ws, normal_ws, lobe));
+}
+
+// The types and functions that light_tree.inl.h requires.
+using LightTreeRef = const GroupNumbers&;
+
+LAMBENT_FORCE_INLINE uint light_tree_size(const GroupNumbers& tree) {
+  return tree.count;
+}
+LAMBENT_FORCE_INLINE uint fetch_group_link(const GroupNumbers& tree, uint group, uint child) {
+  return link_in_group(tree.at(group), child);
+}
+LAMBENT_FORCE_INLINE void group_importances(const GroupNumbers& tree, uint group,
+                                            const vec3& position_ws, const vec3& normal_ws,
+                                            const PickLobe& lobe, float* importances) {
+  importances_in_group(tree.at(group), position_ws, normal_ws, lobe, importances);
+}
+
+#include "scene/light_tree/light_tree.inl.h"
+
+__attribute__((flatten)) static void pick_in_groups(const GroupNumbers& tree,
+                                                    const vec3& position_ws, const vec3& normal_ws,
+                                                    const PickLobe& lobe, uint count,
+                                                    LightPicks& picks) {
+  pick_lights(tree, position_ws, normal_ws, lobe, count, picks);
+}
+
+__attribute__((flatten)) static PickLobe bounded_in_groups(const GroupNumbers& tree,
+                                                           const vec3& position_ws,
+                                                           const vec3& normal_ws,
+                                                           const PickLobe& lobe) {
+  return bounded_lobe(tree, position_ws, normal_ws, lobe);
 }

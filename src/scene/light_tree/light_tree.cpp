@@ -10,7 +10,6 @@
 
 #include "scene/light_tree/cluster.h"
 #include "shared/constants.h"
-#include "shared/random.h"
 
 namespace lambent {
 namespace {
@@ -22,23 +21,6 @@ constexpr int kBins = 12;
 constexpr std::size_t kMostLightsWithCones = 256;
 // A fitted tree whose cost has grown by this factor is built again.
 constexpr double kWornOut = 2.0;
-
-// The types and functions that light_tree.inl.h requires.
-using LightTreeRef = const LightTree&;
-
-uint light_tree_size(const LightTree& tree) {
-  return static_cast<uint>(tree.nodes().size());
-}
-uint fetch_group_link(const LightTree& tree, uint group, uint child) {
-  return link_in_group(tree.groups().numbers(group), child);
-}
-void group_importances(const LightTree& tree, uint group, const vec3& position_ws,
-                       const vec3& normal_ws, const PickLobe& lobe, float* importances) {
-  lambent::group_importances(tree.groups().numbers(group), position_ws, normal_ws, lobe,
-                             importances);
-}
-
-#include "scene/light_tree/light_tree.inl.h"
 
 bool is_asked(const Light& light, std::size_t local_lights) {
   return light.type == Light::Type::directional || local_lights <= kMaxLightsAsked;
@@ -243,20 +225,20 @@ double LightTree::cost() const {
 
 PickLobe LightTree::bounded(const glm::vec3& position_ws, const glm::vec3& normal_ws,
                             const PickLobe& lobe) const {
-  return bounded_lobe(*this, position_ws, normal_ws, lobe);
+  return bounded_in_groups(groups_.all_numbers(), position_ws, normal_ws, lobe);
 }
 
 LightPick LightTree::pick(const glm::vec3& position_ws, const glm::vec3& normal_ws,
                           const PickLobe& lobe, float u) const {
   LightPicks picks;
   picks.at[0].rest = u;
-  pick_lights(*this, position_ws, normal_ws, lobe, 1, picks);
+  pick_in_groups(groups_.all_numbers(), position_ws, normal_ws, lobe, 1, picks);
   return picks.at[0];
 }
 
 void LightTree::pick(const glm::vec3& position_ws, const glm::vec3& normal_ws, const PickLobe& lobe,
                      std::uint32_t count, LightPicks& picks) const {
-  pick_lights(*this, position_ws, normal_ws, lobe, count, picks);
+  pick_in_groups(groups_.all_numbers(), position_ws, normal_ws, lobe, count, picks);
 }
 
 float LightTree::probability(std::uint32_t light, const glm::vec3& position_ws,
