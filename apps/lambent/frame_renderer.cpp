@@ -53,8 +53,11 @@ const std::map<std::string, ProbeAspect> kProbeAspects = {{"irradiance", ProbeAs
 /// The field that the options describe, before any updates.
 Expected<IrradianceField> open_field(const RenderOptions& options, const World& world,
                                      const Camera& camera) {
-  const auto settings = picture_field_settings(options, world.scene());
+  const auto settings = picture_field_settings(options, world, camera);
   if (!settings) return tl::unexpected(settings.error());
+  if (settings->volumes.size() > world.scene().volumes.size() + options.field.volumes.size()) {
+    tell("probes: finer ones around the camera, as the scene is large (--bounds places them)");
+  }
   if (options.field_file.empty()) return make_field(*settings, options.field, world, camera, 1);
   Expected<LoadedField> loaded = load_field(options.field_file, *settings, world);
   if (!loaded) return tl::unexpected(loaded.error());
@@ -141,7 +144,7 @@ Expected<void> FrameRenderer::follow(const Camera& camera, Json& stats) {
 /// lights that the maps include, which is subtracted. Both trace the same rays, so that their noise
 /// cancels.
 Expected<void> FrameRenderer::split_bounces(const Camera& camera, Json& stats) {
-  const auto settings = picture_field_settings(options_, world_.scene());
+  const auto settings = picture_field_settings(options_, world_, camera);
   if (!settings) return tl::unexpected(settings.error());
   const glm::vec3 viewer(camera.world_from_view[3]);
   Expected<IrradianceField> all = make_field(*settings, options_.field, world_, camera, 2);

@@ -4,8 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "lambent/field_options.h"
+#include "lambent/first_picture.h"
 #include "lambent/validators.h"
 
 namespace lambent::cli {
@@ -17,6 +19,12 @@ const std::map<std::string, Quality> kQualities = {
 Quality chosen_quality(const RenderOptions& options) {
   if (!options.quality.empty()) return quality_from_name(options.quality);
   return options.frames > 0 ? Quality::interactive : Quality::high;
+}
+
+/// Whether the options, or the scene's author, say where probes stand.
+bool places_probes(const FieldSettings& settings) {
+  return settings.probe_count != glm::ivec3(0) || settings.probe_spacing > 0.0f ||
+         settings.volume != Bounds{} || settings.cascades > 0 || !settings.volumes.empty();
 }
 
 }  // namespace
@@ -77,10 +85,19 @@ FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& siz
   return frame;
 }
 
-Expected<FieldSettings> picture_field_settings(const RenderOptions& options, const Scene& scene) {
+Expected<FieldSettings> picture_field_settings(const RenderOptions& options, const World& world,
+                                               const Camera& camera) {
+  const Scene& scene = world.scene();
   auto settings = field_settings(options.field, scene, options.seed, options.bounces);
-  if (settings && options.field.visibility.empty() && chosen_quality(options) == Quality::high) {
+  if (!settings) return settings;
+  if (options.field.visibility.empty() && chosen_quality(options) == Quality::high) {
     settings->visibility = Visibility::hybrid;
+  }
+  if (!options.field_file.empty() || places_probes(*settings)) return settings;
+  const Expected<FieldGrid> grid = fit_grid(*settings, world_bounds(scene));
+  if (!grid) return settings;
+  if (auto volume = near_volume(world, camera, grid->spacing)) {
+    settings->volumes.push_back(std::move(*volume));
   }
   return settings;
 }

@@ -29,8 +29,10 @@ Quality quality_from_name(const std::string& name);
 FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& size);
 
 /// Settings of the field that lights a picture: those of the quality, except where other options
-/// override them.
-Expected<FieldSettings> picture_field_settings(const RenderOptions& options, const Scene& scene);
+/// override them. Where neither they nor the scene say where probes stand, and the scene is far
+/// larger than what surrounds the camera, there are finer ones around it (near_volume).
+Expected<FieldSettings> picture_field_settings(const RenderOptions& options, const World& world,
+                                               const Camera& camera);
 
 /// Whether the field is updated until its light is calm, not a fixed number of times.
 bool wants_calm_field(const RenderOptions& options);

@@ -56,4 +56,11 @@ FirstLight choose_first_light(const World& world, const Camera& camera);
 /// scene; call World::update afterwards.
 void set_first_light(FirstLight light, const World& world, const Camera& camera, Scene& scene);
 
+/// A box of about 4,096 probes around the surfaces that surround a camera, for fields whose grid
+/// has hardly a cell there, since the scene is far larger than the room or the yard in which the
+/// camera stands. None where the grid is fine enough, and where the camera stands in the open.
+/// `spacing`: of the grid's probes along each axis [m]. Traces some 600 rays.
+std::optional<ProbeVolume> near_volume(const World& world, const Camera& camera,
+                                       const glm::vec3& spacing);
+
 }  // namespace lambent

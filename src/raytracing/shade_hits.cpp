@@ -28,7 +28,7 @@ LAMBENT_SHADING_KERNEL void queue_direct_light(const World& world,
         make_random_stream(static_cast<std::uint32_t>(query.index), settings.salt, settings.seed);
     const LightDraws draws{world, settings.emissive_samples, false, settings.candidates};
     const SeenShape shape = seen_shape(point);
-    const LightReceiver receiver{point, nullptr, nullptr, shape};
+    const LightReceiver receiver{.point = point, .shape = shape};
     for_each_light(draws, receiver, random, [&](const LightCandidate& light) {
       const glm::vec3 irradiance = unoccluded_irradiance(point, shape, light);
       if (irradiance == glm::vec3(0.0f)) return;

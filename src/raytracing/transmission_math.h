@@ -134,7 +134,7 @@ LAMBENT_FN ThroughDraw draw_through(Transmission through, Reflectance reflectanc
         same_side ? (1.0f + lambda_v) / (1.0f + lambda_v + lambda_l) : 1.0f / (1.0f + lambda_l);
   }
   drawn.direction_ws = normalize(to_world(frame, l));
-  if (is_behind && samples_lights_behind(through)) {
+  if (drawn.crosses != 0u && is_behind && samples_lights_behind(through)) {
     drawn.pdf = evaluate_through(through, reflectance, v, l).pdf;
   }
   return drawn;

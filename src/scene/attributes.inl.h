@@ -176,7 +176,7 @@ LAMBENT_FN bool stops_ray_at(SceneRef scene, uint instance, uint triangle, vec2 
   MaterialRef material = fetch_material(scene, mesh.material);
   float alpha = coverage_at(scene, mesh, material, triangle_point(mesh, triangle, barycentrics));
   float uniform_number = carries_sample(ray_mask)
-                             ? uniform_of_sample(ray_mask, instance, triangle)
+                             ? uniform_of_sample(ray_mask, instance, coverage_layer(distance))
                              : uniform_of_hit(barycentrics, distance, triangle);
   return stops_ray(uint(material.alpha_mode), material.alpha_cutoff, alpha, uniform_number);
 }

@@ -46,11 +46,20 @@ LAMBENT_FN bool carries_sample(uint ray_mask) {
   return (ray_mask & kKindMaskBits) == kSampleMaskKind;
 }
 
-/// A random number in [0, 1) for a pixel's sample at a triangle: the sample's radical inverse,
-/// scrambled. A pixel's first 2^k samples are stratified, so that for example one of four rays is
-/// stopped where the probability is a quarter.
-LAMBENT_FN float uniform_of_sample(uint ray_mask, uint instance, uint triangle) {
-  uint seed = hash_pcg(hash_pcg3d(uvec3(ray_mask >> kPixelMaskShift, instance, triangle)).x);
+// Bits of a distance that tell layers apart: exponent and seven of the significand. Layers are as
+// thick as 1/256 to 1/128 of the distance, so that folds of a curtain decide each for itself, while
+// the samples of a pixel on one fold share a layer, unless it is seen edge-on.
+const uint kLayerShift = 16u;
+
+LAMBENT_FN uint coverage_layer(float distance) {
+  return floatBitsToUint(distance) >> kLayerShift;
+}
+
+/// A random number in [0, 1) for a pixel's sample at a layer of an instance: the sample's radical
+/// inverse, scrambled. A pixel's first 2^k samples are stratified, so that for example one of four
+/// rays is stopped where the probability is a quarter, whichever triangles of a fine mesh they hit.
+LAMBENT_FN float uniform_of_sample(uint ray_mask, uint instance, uint layer) {
+  uint seed = hash_pcg(hash_pcg3d(uvec3(ray_mask >> kPixelMaskShift, instance, layer)).x);
   uint index = (ray_mask >> kSampleMaskShift) & kSampleMaskBits;
   return uniform_from_bits(bitfieldReverse(scramble_reversed(index, seed)));
 }

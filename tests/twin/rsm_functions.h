@@ -129,7 +129,7 @@ LAMBENT_FN void call_gather(LAMBENT_INOUT(RsmResultCursor) to, RsmInputs a) {
   tell(to, sum.light);
   tell(to, sum.directions);
   float light = 0.1f + luminance(a.texel.flux);
-  vec3 means = reorientation(sight.to_texel, a.normal_ws, light);
+  vec3 means = reorientation(vec3(sight.x, sight.y, sight.z), a.normal_ws, light);
   tell(to, means);
   tell(to, reoriented_fraction(means, a.other_normal_ws, light));
   vec3 offset = 0.1f * (a.texel.flux - vec3(0.5f));

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finer probes around cameras in scenes that are far larger than what they see.
+#include <gtest/gtest.h>
+
+#include "lambent/first_picture.h"
+#include "lambent/world.h"
+#include "support/box_scenes.h"
+
+namespace lambent::near_volume_test {
+namespace {
+
+using test::box_mesh;
+using test::scene_of;
+
+constexpr glm::vec3 kLow{-2, 0, -3}, kHigh{2, 2.5f, 3};
+
+/// A room of 4 x 2.5 x 6 m, on a ground of 400 m if `grounded`.
+Scene room(bool grounded) {
+  std::vector<Mesh> meshes = {box_mesh(kLow, kHigh)};
+  if (grounded) meshes.push_back(box_mesh({-200, -1, -200}, {200, -0.01f, 200}));
+  return scene_of(std::move(meshes));
+}
+
+const Camera kInside = look_at({0, 1.5f, 2}, {0, 1, -3}, 1.0f);
+
+TEST(NearVolume, FillsTheRoomOfACameraWhereTheGridIsFarCoarser) {
+  const Scene scene = room(true);
+  const World world(scene);
+  const auto volume = near_volume(world, kInside, glm::vec3(25.0f));
+  ASSERT_TRUE(volume);
+  const float margin = volume->probe_spacing;
+  EXPECT_LT(margin, 0.5f);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(volume->centre[axis] - 0.5f * volume->size[axis], kLow[axis], margin);
+    EXPECT_NEAR(volume->centre[axis] + 0.5f * volume->size[axis], kHigh[axis], margin);
+  }
+}
+
+TEST(NearVolume, IsNotThereWhereTheGridHasCellsEnough) {
+  const Scene scene = room(false);
+  const World world(scene);
+  EXPECT_FALSE(near_volume(world, kInside, glm::vec3(0.4f)));
+}
+
+TEST(NearVolume, IsNotThereInTheOpen) {
+  const Scene scene = room(true);
+  const World world(scene);
+  const Camera above = look_at({0, 150, 0}, {200, 160, 0}, 1.0f);
+  EXPECT_FALSE(near_volume(world, above, glm::vec3(25.0f)));
+}
+
+}  // namespace
+}  // namespace lambent::near_volume_test
