@@ -93,16 +93,17 @@ TEST_P(LightsBehindGlass, ShineThroughWithAllOfTheirLightAndLittleNoise) {
   const Metrics many = difference(64), few = difference(8);
   RecordProperty("mean_ratio", std::to_string(many.mean_ratio));
   RecordProperty("relative_rmse", std::to_string(few.relative_rmse));
-  EXPECT_NEAR(many.mean_ratio, 1.0, 0.01);
+  // The mean of the ball has noise of 0.7 %
+  EXPECT_NEAR(many.mean_ratio, 1.0, 0.02);
   EXPECT_LT(few.relative_rmse, GetParam().noise);
 }
 
 INSTANTIATE_TEST_SUITE_P(Glass, LightsBehindGlass,
-                         testing::Values(Glass{"lamp_behind_panes", Source::lamp, false, 1.0},
-                                         Glass{"sun_behind_panes", Source::sun, false, 1.0},
-                                         Glass{"point_behind_panes", Source::point, false, 1.0},
-                                         Glass{"lamp_behind_a_ball", Source::lamp, true, 1.0},
-                                         Glass{"point_behind_a_ball", Source::point, true, 1.0}),
+                         testing::Values(Glass{"lamp_behind_panes", Source::lamp, false, 0.8},
+                                         Glass{"sun_behind_panes", Source::sun, false, 0.8},
+                                         Glass{"point_behind_panes", Source::point, false, 0.8},
+                                         Glass{"lamp_behind_a_ball", Source::lamp, true, 2.0},
+                                         Glass{"point_behind_a_ball", Source::point, true, 2.0}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace

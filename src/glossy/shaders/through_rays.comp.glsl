@@ -21,8 +21,8 @@ void main() {
   }
   LitPointRecord point = args.points.at[i];
   RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
-  CoatPath path = CoatPath(vec3(1.0f), kNoLightSampling, surface.transmission.alpha, kStageThroughGlass,
-                           kForksNext);
+  CoatPath path = CoatPath(vec3(1.0f), kNoLightSampling, surface.transmission.alpha,
+                           kStageThroughGlass, kForksNext);
   vec2 u = next_uniform2(random);
   NextRay next = extend_through_glass(surface.transmission, surface.reflectance, point.normal_ws,
                                surface.to_viewer_ws, vec3(u, next_uniform(random)), path);
