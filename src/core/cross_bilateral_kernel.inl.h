@@ -99,7 +99,7 @@ static void blur_row_relit(const BlurSource& centre, const BlurSource* neighbour
               const Lanes reoriented = blurred.reorientation[0] * here.nx +
                                        blurred.reorientation[1] * here.ny +
                                        blurred.reorientation[2] * here.nz;
-              const Lanes share = fraction_of(reoriented, light);
+              const Lanes share = reoriented_share(reoriented, light);
               for (int c = 0; c < kLightPlanes; ++c) store(out.at(c) + i, blurred.light[c] * share);
             });
 }

@@ -15,11 +15,6 @@ LAMBENT_FORCE_INLINE void store(float* to, const Lanes& lanes) {
   __builtin_memcpy(to, &lanes, sizeof(lanes));
 }
 
-/// Zeroes the lanes where the mask is not set; masks are what comparisons of lanes yield.
-LAMBENT_FORCE_INLINE void keep(Lanes& lanes, const LaneInts& mask) {
-  lanes = mask ? lanes : Lanes{};
-}
-
 LAMBENT_FORCE_INLINE Lanes min(const Lanes& a, const Lanes& b) {
   return a < b ? a : b;
 }

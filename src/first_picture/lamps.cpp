@@ -6,7 +6,6 @@
 
 #include "first_picture/survey.h"
 #include "shared/rays.h"
-#include "shared/sampling.h"
 
 namespace lambent {
 namespace {
@@ -40,12 +39,8 @@ std::vector<Place> find_places(const World& world) {
   for (const OpenPlace& open : survey.enclosed) {
     const float height = open.ceiling - open.floor;
     const glm::vec3 at(open.position_ws.x, open.ceiling - kDrop * height, open.position_ws.z);
-    std::vector<Ray> rays;
-    for (int i = 0; i < kClearanceRays; ++i) {
-      rays.push_back({at, 0.0f, spherical_fibonacci(static_cast<uint>(i), kClearanceRays),
-                      kLampClearance * height});
-    }
-    const std::vector<std::uint8_t> near = trace_occlusion(world, rays);
+    const std::vector<std::uint8_t> near =
+        trace_occlusion(world, rays_around(at, kClearanceRays, kLampClearance * height));
     if (std::find(near.begin(), near.end(), 1) != near.end()) continue;
     places.push_back({at, height});
     if (places.size() == kMaxPlaces) break;

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finer probes around a camera, for scenes that are far larger than what it sees.
 #include <algorithm>
-#include <cmath>
 #include <glm/glm.hpp>
 #include <optional>
 #include <vector>
 
 #include "first_picture/seen.h"
 #include "first_picture/survey.h"
+#include "lambent/field.h"
 #include "lambent/first_picture.h"
 #include "lambent/world.h"
-#include "shared/sampling.h"
 
 namespace lambent {
 namespace {
@@ -25,21 +24,11 @@ constexpr float kMinHitShare = 0.25f;
 constexpr float kOutlierShare = 0.1f;
 // A grid with fewer cells than this along each side of the box cannot show how light varies there.
 constexpr float kMinCells = 4.0f;
-// Probes in the box, about as many as a field has by default.
-constexpr float kProbes = 4096.0f;
-// No side of the box is thinner than this share of the longest: about a cell.
-constexpr float kMinThickness = 1.0f / 16.0f;
-// The outermost probes stand this share of a cell inside the box, in front of the walls and not in
-// them (docs/math.md, "Probes belong at surfaces").
-constexpr float kWallMargin = 0.07f;
 
 /// Places of surfaces around the camera; empty where it stands in the open.
 std::vector<glm::vec3> places_around(const World& world, const Camera& camera) {
   const glm::vec3 eye(camera.world_from_view[3]);
-  std::vector<Ray> rays;
-  for (int i = 0; i < kSurroundRays; ++i) {
-    rays.push_back({eye, 0.0f, spherical_fibonacci(static_cast<uint>(i), kSurroundRays)});
-  }
+  const std::vector<Ray> rays = rays_around(eye, kSurroundRays);
   const std::vector<Hit> hits = trace(world, rays);
   std::vector<glm::vec3> places;
   for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -77,17 +66,15 @@ std::optional<ProbeVolume> near_volume(const World& world, const Camera& camera,
   const glm::vec3 eye(camera.world_from_view[3]);
   box.min = glm::min(box.min, eye);
   box.max = glm::max(box.max, eye);
-  glm::vec3 size = box.max - box.min;
-  if (glm::any(glm::greaterThanEqual(size, kMinCells * spacing))) return std::nullopt;
+  if (glm::any(glm::greaterThanEqual(box.max - box.min, kMinCells * spacing))) return std::nullopt;
 
-  const float longest = std::max({size.x, size.y, size.z});
-  if (!(longest > 0.0f)) return std::nullopt;
-  size = glm::max(size, glm::vec3(kMinThickness * longest));
+  const Expected<FieldGrid> grid = fit_grid({}, box);
+  if (!grid) return std::nullopt;
   ProbeVolume volume;
   volume.name = "around the camera";
-  volume.centre = 0.5f * (box.min + box.max);
-  volume.probe_spacing = std::cbrt(size.x * size.y * size.z / kProbes);
-  volume.size = size - 2.0f * kWallMargin * volume.probe_spacing;
+  volume.probe_count = grid->count;
+  volume.size = grid->spacing * glm::vec3(grid->count - 1);
+  volume.centre = grid->origin + 0.5f * volume.size;
   return volume;
 }
 

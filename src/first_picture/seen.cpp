@@ -159,13 +159,8 @@ ViewLight measure_view_light(const World& world, const SeenView& view) {
 }
 
 float enclosure(const World& world, const Camera& camera) {
-  const glm::vec3 eye(camera.world_from_view[3]);
-  std::vector<Ray> rays;
-  rays.reserve(kSphereRays);
-  for (int i = 0; i < kSphereRays; ++i) {
-    rays.push_back({eye, 0.0f, spherical_fibonacci(static_cast<uint>(i), kSphereRays)});
-  }
-  const std::vector<std::uint8_t> closed = trace_occlusion(world, rays);
+  const std::vector<std::uint8_t> closed =
+      trace_occlusion(world, rays_around(glm::vec3(camera.world_from_view[3]), kSphereRays));
   return static_cast<float>(std::count(closed.begin(), closed.end(), 1)) / kSphereRays;
 }
 

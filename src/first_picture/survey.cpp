@@ -105,6 +105,16 @@ glm::vec3 direction_from_angles(float azimuth, float elevation) {
           std::cos(azimuth) * std::cos(elevation)};
 }
 
+std::vector<Ray> rays_around(const glm::vec3& place_ws, int count, float reach) {
+  std::vector<Ray> rays;
+  rays.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    rays.push_back({place_ws, 0.0f,
+                    spherical_fibonacci(static_cast<uint>(i), static_cast<uint>(count)), reach});
+  }
+  return rays;
+}
+
 std::vector<Hit> trace(const World& world, std::span<const Ray> rays) {
   std::vector<Hit> hits(rays.size());
   const std::size_t chunk = std::max(kRaysPerTask, tracer_of(world).batch_rays());

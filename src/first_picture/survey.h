@@ -25,6 +25,9 @@ struct SurfaceSample {
 std::vector<SurfaceSample> sample_surfaces(const Scene& scene,
                                            std::span<const std::uint32_t> instances, int count);
 
+/// Rays in `count` directions that cover the sphere evenly, `reach` long [m].
+std::vector<Ray> rays_around(const glm::vec3& place_ws, int count, float reach = kInfiniteDistance);
+
 /// The nearest hit of each ray. Uses all cores.
 std::vector<Hit> trace(const World& world, std::span<const Ray> rays);
 

@@ -182,7 +182,7 @@ static void reorientable(const GatherRow& row) {
     Lanes length;
     for (int l = 0; l < kLanes; ++l) length[l] = std::sqrt(square[l]);
     const Lanes scale = direction_scale(light, across, length);
-    const Lanes rest = normal_share(light, across, scale);
+    const Lanes rest = reorientation_along_normal(light, across, scale);
     const Lanes normal[] = {p.nx, p.ny, p.nz};
     for (int c = 0; c < kLightPlanes; ++c) {
       Lanes word;

@@ -25,12 +25,12 @@ LAMBENT_REAL_FN Real direction_scale(Real light, Real across, Real direction_len
 }
 
 /// What reorientation() adds along the normal.
-LAMBENT_REAL_FN Real normal_share(Real light, Real across, Real scale) {
+LAMBENT_REAL_FN Real reorientation_along_normal(Real light, Real across, Real scale) {
   return light * (1.0f - kHorizonLight) - across * scale;
 }
 
 /// reoriented_fraction(), given the product of mean R and normal.
-LAMBENT_REAL_FN Real fraction_of(Real reoriented, Real light) {
+LAMBENT_REAL_FN Real reoriented_share(Real reoriented, Real light) {
   Real fraction = reoriented / light + kHorizonLight;
   return min(fraction, light) > 0.0f ? fraction : 0.0f;
 }

@@ -50,12 +50,12 @@ const float kLeastDirectedShare = 1e-6f;
 LAMBENT_FN vec3 reorientation(vec3 direction, vec3 normal, float light) {
   float across = dot(direction, normal);
   float scale = direction_scale(light, across, length(direction));
-  return direction * scale + normal * normal_share(light, across, scale);
+  return direction * scale + normal * reorientation_along_normal(light, across, scale);
 }
 
 /// Factor on light of this luminance, for a pixel with this normal; `means` is the mean of R.
 LAMBENT_FN float reoriented_fraction(vec3 means, vec3 normal, float light) {
-  return fraction_of(dot(means, normal), light);
+  return reoriented_share(dot(means, normal), light);
 }
 
 LAMBENT_END

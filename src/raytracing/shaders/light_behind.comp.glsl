@@ -25,16 +25,7 @@ PickLobe lobe_of(ThroughReceiver receiver) {
   return pick_lobe(receiver.transmitter);
 }
 
-#define MediaRef LightDrawsArguments
-uint media_count(LightDrawsArguments draws) {
-  return draws.media_count;
-}
-MediumRecord fetch_medium(LightDrawsArguments draws, uint medium) {
-  return draws.media.at[medium];
-}
-
-#include "scene/media/media.inl.h"
-
+#include "raytracing/shaders/draws_media.glsl"
 #include "raytracing/shaders/sky.glsl"
 #include "raytracing/glass/sky_behind.inl.h"
 

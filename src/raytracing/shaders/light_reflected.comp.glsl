@@ -35,16 +35,7 @@ PickLobe lobe_of(ReflectingReceiver receiver) {
   return pick_lobe(receiver.reflectance, receiver.frame, receiver.to_viewer);
 }
 
-#define MediaRef LightDrawsArguments
-uint media_count(LightDrawsArguments draws) {
-  return draws.media_count;
-}
-MediumRecord fetch_medium(LightDrawsArguments draws, uint medium) {
-  return draws.media.at[medium];
-}
-
-#include "scene/media/media.inl.h"
-
+#include "raytracing/shaders/draws_media.glsl"
 #include "raytracing/shaders/sky.glsl"
 #include "raytracing/sky/sky_light.inl.h"
 

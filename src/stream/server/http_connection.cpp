@@ -17,7 +17,7 @@ namespace lambent::stream {
 
 namespace {
 
-/// It keeps itself alive until it is done.
+/// Reads the first request of a connection and answers it. Pending operations own the object.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
   using ErrorCode = boost::beast::error_code;

@@ -29,7 +29,7 @@ namespace {
 using PlainStream = boost::beast::tcp_stream;
 using TlsStream = boost::beast::ssl_stream<PlainStream>;
 
-/// `Stream` is one of the two above.
+/// A connection over a PlainStream or a TlsStream.
 template <class Stream>
 class ChannelOver final : public ByteStream::Channel {
  public:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A connection's bytes, plain or encrypted. Beast's protocols are templates over their stream: over
-// this one they are compiled once, not once for each kind of connection, which takes minutes.
-// Included only by files that use Boost.Beast.
+// A connection's bytes, plain or encrypted. Boost.Beast's protocols are templates over the type of
+// their stream, and each instance takes about a minute to compile. With this one type for both
+// kinds of connection there is one instance. Included only by files that use Boost.Beast.
 #pragma once
 
 #include <array>
@@ -50,8 +50,8 @@ class FirstBuffers {
   std::size_t count_ = 0;
 };
 
-/// A TCP connection with or without TLS: an AsyncStream of Boost.Beast. All is called, and
-/// calls back, on the thread of its executor.
+/// A TCP connection with or without TLS: an AsyncStream of Boost.Beast. Its functions are called on
+/// the thread of its executor, which also calls the handlers.
 class ByteStream {
  public:
   using executor_type = boost::asio::any_io_executor;
@@ -99,7 +99,7 @@ class ByteStream {
                call_once(std::forward<Handler>(handler)));
   }
 
-  /// The kind of connection.
+  /// What differs between plain and encrypted connections.
   class Channel;
 
  private:
