@@ -98,9 +98,9 @@ Expected<void> prepare(const BakeOptions& options, const Job& job, Baking& bakin
     return tl::unexpected(fine.error());
   }
   begin_step("reading the scene");
-  Expected<Scene> scene = open_lit_scene(options.scene);
-  if (!scene) return tl::unexpected(scene.error());
-  baking.scene = std::move(*scene);
+  Expected<OpenedScene> opened = open_lit_scene(options.scene);
+  if (!opened) return tl::unexpected(opened.error());
+  baking.scene = std::move(opened->scene);
   if (options.time_s) {
     if (baking.scene.animations.empty()) {
       return fail("--time", "", "the scene has no animation that can be played");
@@ -112,7 +112,8 @@ Expected<void> prepare(const BakeOptions& options, const Job& job, Baking& bakin
   World& world = *baking.world;
   const Expected<View> view = choose_view(options.scene, world, FirstViewSettings().aspect);
   if (!view) return tl::unexpected(view.error());
-  const auto light = add_first_light(options.scene.light, view->camera, baking.scene, world);
+  const auto light =
+      add_first_light(options.scene.light, view->camera, opened->sky_dome, baking.scene, world);
   if (!light) return tl::unexpected(light.error());
   tell("light: " + *light);
   const auto settings = field_settings(options.field, baking.scene, options.seed, options.bounces);

@@ -57,18 +57,19 @@ Expected<void> render_by_stream(const ConnectOptions& options,
                                 const stream::ConnectSettings& settings, stream::Joined& joined,
                                 const std::optional<stream::CameraInput>& camera) {
   begin_step("reading the scene");
-  Expected<Scene> scene = open_lit_scene(options.scene);
-  if (!scene) return tl::unexpected(scene.error());
+  Expected<OpenedScene> opened = open_lit_scene(options.scene);
+  if (!opened) return tl::unexpected(opened.error());
+  Scene& scene = opened->scene;
   begin_step("preparing the scene for rays");
-  World world(*scene);
+  World world(scene);
   // The server chose its first light by its own view, so choose it here by the same view
-  const auto light =
-      add_first_light(options.scene.light, stream::camera_of(joined.welcome.camera), *scene, world);
+  const auto light = add_first_light(options.scene.light, stream::camera_of(joined.welcome.camera),
+                                     opened->sky_dome, scene, world);
   if (!light) return tl::unexpected(light.error());
   auto frame = settings_of(options);
   if (!frame) return tl::unexpected(frame.error());
 
-  stream::LitScene lit(*scene, world);
+  stream::LitScene lit(scene, world);
   if (options.codec == "h265") {
     auto reader = stream::make_h265_reader();
     if (!reader) return tl::unexpected(reader.error());

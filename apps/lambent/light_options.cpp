@@ -81,7 +81,7 @@ FirstLight light_of_name(const std::string& name) {
                            : FirstLight::scene;
 }
 
-std::string describe(FirstLight light, const Scene& scene) {
+std::string describe(FirstLight light, const Scene& scene, bool has_dome) {
   switch (light) {
     case FirstLight::studio:
       return "a studio";
@@ -92,6 +92,7 @@ std::string describe(FirstLight light, const Scene& scene) {
     case FirstLight::scene:
       break;
   }
+  if (has_dome) return "the scene's, with the dome around it as its sky";
   // glTF files have no sky: with only a sun, shadows and windows would be black
   const bool has_sun = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& each) {
     return each.type == Light::Type::directional;
@@ -136,16 +137,23 @@ Expected<void> add_asked_light(const LightOptions& options, Scene& scene) {
 }
 
 Expected<std::string> add_first_light(const LightOptions& options, const Camera& camera,
-                                      Scene& scene, World& world) {
+                                      const std::optional<Scene>& sky_dome, Scene& scene,
+                                      World& world) {
   if (options.light == "none" && !names_light(options)) return "none but what surfaces emit";
+  if (sky_dome && options.sky.empty() && options.environment.empty()) {
+    const std::uint32_t revision = scene.environment.revision + 1;
+    scene.environment = sky_of_dome(*sky_dome, glm::vec3(camera.world_from_view[3]));
+    scene.environment.revision = revision;
+    if (const auto changes = world.update(); !changes) return tl::unexpected(changes.error());
+  }
   if (names_light(options)) return "as asked";
   const FirstLight light =
       options.light == "auto" ? choose_first_light(world, camera) : light_of_name(options.light);
-  if (light == FirstLight::scene) return describe(light, scene);
+  if (light == FirstLight::scene) return describe(light, scene, sky_dome.has_value());
   set_first_light(light, world, camera, scene);
   if (const auto changes = world.update(); !changes) return tl::unexpected(changes.error());
   const bool asked = options.light != "auto";
-  return describe(light, scene) +
+  return describe(light, scene, false) +
          (asked ? "" : ", as the scene brings none (--light, --sun and --sky choose)");
 }
 

@@ -2,6 +2,7 @@
 // The options of a scene's light, and their application.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "lambent/error.h"
@@ -31,8 +32,10 @@ void add_light_options(CLI::App& command, LightOptions& options);
 Expected<void> add_asked_light(const LightOptions& options, Scene& scene);
 
 /// Adds the light that the options leave to the program, as the camera's view needs it, and updates
-/// the world. `scene` is the world's scene. Returns a description of the light.
+/// the world. `scene` is the world's scene. `sky_dome`, which take_sky_dome took from it, becomes
+/// its sky where the options request no other. Returns a description of the light.
 Expected<std::string> add_first_light(const LightOptions& options, const Camera& camera,
-                                      Scene& scene, World& world);
+                                      const std::optional<Scene>& sky_dome, Scene& scene,
+                                      World& world);
 
 }  // namespace lambent::cli

@@ -37,19 +37,21 @@ Expected<void> prepare(const PrepareOptions& options) {
   files.writes(options.output, "-o");
   if (const auto distinct = files.check(); !distinct) return distinct;
   begin_step("reading the scene");
-  Expected<Scene> scene = open_lit_scene(options.scene);
-  if (!scene) return tl::unexpected(scene.error());
-  World world(*scene);
+  Expected<OpenedScene> opened = open_lit_scene(options.scene);
+  if (!opened) return tl::unexpected(opened.error());
+  Scene& scene = opened->scene;
+  World world(scene);
   const Expected<View> view = choose_view(options.scene, world, FirstViewSettings().aspect);
   if (!view) return tl::unexpected(view.error());
-  const auto light = add_first_light(options.scene.light, view->camera, *scene, world);
+  const auto light =
+      add_first_light(options.scene.light, view->camera, opened->sky_dome, scene, world);
   if (!light) return tl::unexpected(light.error());
-  scene->cameras.insert(scene->cameras.begin(), view->camera);
-  limit_textures(*scene, options.texture_size);
+  scene.cameras.insert(scene.cameras.begin(), view->camera);
+  limit_textures(scene, options.texture_size);
   if (const auto fine = make_folders(options.output); !fine) return fine;
-  if (const auto saved = save_prepared(*scene, options.output); !saved) return saved;
-  tell_written(options.output, count_text(triangle_count(*scene), "triangle") + " and " +
-                                   count_text(scene->textures.size(), "texture"));
+  if (const auto saved = save_prepared(scene, options.output); !saved) return saved;
+  tell_written(options.output, count_text(triangle_count(scene), "triangle") + " and " +
+                                   count_text(scene.textures.size(), "texture"));
   return {};
 }
 

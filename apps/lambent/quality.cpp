@@ -94,7 +94,8 @@ Expected<FieldSettings> picture_field_settings(const RenderOptions& options, con
     settings->visibility = Visibility::hybrid;
   }
   if (!options.field_file.empty() || places_probes(*settings)) return settings;
-  const Expected<FieldGrid> grid = fit_grid(*settings, world_bounds(scene));
+  const glm::vec3 eye(camera.world_from_view[3]);
+  const Expected<FieldGrid> grid = fit_grid(*settings, open_bounds(world, eye));
   if (!grid) return settings;
   if (auto volume = near_volume(world, camera, grid->spacing)) {
     settings->volumes.push_back(std::move(*volume));

@@ -83,17 +83,19 @@ Expected<void> render(const RenderOptions& options) {
   begin_step("reading the scene");
   SceneOptions input = options.scene;
   input.no_fog = leaves_out(options, "fog");
-  Expected<Scene> scene = open_lit_scene(input);
-  if (!scene) return tl::unexpected(scene.error());
-  const auto animation = chosen_animation(options, *scene);
+  Expected<OpenedScene> opened = open_lit_scene(input);
+  if (!opened) return tl::unexpected(opened.error());
+  Scene& scene = opened->scene;
+  const auto animation = chosen_animation(options, scene);
   if (!animation) return tl::unexpected(animation.error());
-  if (const auto posed = pose(options, *animation, *scene); !posed) return posed;
+  if (const auto posed = pose(options, *animation, scene); !posed) return posed;
   begin_step("preparing the scene for rays");
-  World world(*scene, *device);
+  World world(scene, *device);
   const float aspect = static_cast<float>(size->x) / static_cast<float>(size->y);
   const Expected<View> view = choose_view(options.scene, world, aspect);
   if (!view) return tl::unexpected(view.error());
-  const auto light = add_first_light(options.scene.light, view->camera, *scene, world);
+  const auto light =
+      add_first_light(options.scene.light, view->camera, opened->sky_dome, scene, world);
   if (!light) return tl::unexpected(light.error());
   tell("camera: " + describe(*view));
   tell("light: " + *light);
@@ -104,14 +106,14 @@ Expected<void> render(const RenderOptions& options) {
   if (*device != nullptr) stats["device"] = vulkan::description(**device).name;
   stats["width"] = size->x;
   stats["height"] = size->y;
-  stats["triangles"] = triangle_count(*scene);
+  stats["triangles"] = triangle_count(scene);
   stats["build_ms"] = world.build_ms();
   stats["acceleration_structure_bytes"] = world.bytes();
 
   FrameRenderer renderer(options, world, *size);
   const Expected<void> done =
       options.frames > 0
-          ? render_sequence(options, *scene, *animation, *view, world, renderer, stats)
+          ? render_sequence(options, scene, *animation, *view, world, renderer, stats)
           : render_picture(options, world, view->camera, renderer, stats);
   if (const auto silent = check_validation(device->get()); done && !silent) return silent;
   // For an interrupted sequence, write the statistics of the finished frames

@@ -90,28 +90,32 @@ void add_scene_and_view_options(CLI::App& command, SceneOptions& o) {
       ->type_name("DEG");
 }
 
-Expected<Scene> open_lit_scene(const SceneOptions& options) {
+Expected<OpenedScene> open_lit_scene(const SceneOptions& options) {
   LoadOptions load;
   load.lambert = options.materials == "lambert";
   load.normal_maps = !options.no_normal_maps;
-  Expected<Scene> scene = open_scene_input(options.file, load);
-  if (!scene) return scene;
-  for (const std::string& warning : scene->source.warnings) {
+  Expected<Scene> loaded = open_scene_input(options.file, load);
+  if (!loaded) return tl::unexpected(loaded.error());
+  OpenedScene opened{std::move(*loaded), std::nullopt};
+  Scene& scene = opened.scene;
+  for (const std::string& warning : scene.source.warnings) {
     warn(warning);
   }
-  if (triangle_count(*scene) == 0) {
+  if (triangle_count(scene) == 0) {
     return fail(options.file, "", "the scene has no triangles: there is nothing to render");
   }
-  if (const auto done = add_asked_light(options.light, *scene); !done) {
+  if (const auto done = add_asked_light(options.light, scene); !done) {
     return tl::unexpected(done.error());
   }
-  if (options.no_fog) scene->fog.clear();
-  if (options.fog.empty()) return scene;
-  Expected<FogVolume> fog = parse_fog(options.fog, world_bounds(*scene));
+  const bool keeps_dome = options.keep_sky_dome || options.light.light == "none";
+  if (!keeps_dome) opened.sky_dome = take_sky_dome(scene);
+  if (options.no_fog) scene.fog.clear();
+  if (options.fog.empty()) return opened;
+  Expected<FogVolume> fog = parse_fog(options.fog, world_bounds(scene));
   if (!fog) return tl::unexpected(fog.error());
-  scene->fog.push_back(std::move(*fog));
-  if (const auto fine = validate_fog(*scene); !fine) return tl::unexpected(fine.error());
-  return scene;
+  scene.fog.push_back(std::move(*fog));
+  if (const auto fine = validate_fog(scene); !fine) return tl::unexpected(fine.error());
+  return opened;
 }
 
 Expected<Camera> camera_of_scene(const SceneOptions& options, const Scene& scene) {

@@ -29,6 +29,8 @@ struct SceneOptions {
   bool no_normal_maps = false;
   std::string fog;      // empty: the scene's own
   bool no_fog = false;  // omit the scene's own
+  // A dome stays a mesh: in a glTF file that is shared, a sky has no place
+  bool keep_sky_dome = false;
 };
 
 /// Adds the options of scene and light, without those of the view.
@@ -36,8 +38,14 @@ void add_scene_options(CLI::App& command, SceneOptions& options);
 /// Adds the options of scene, light and view.
 void add_scene_and_view_options(CLI::App& command, SceneOptions& options);
 
+/// A scene, without the dome that it brings as its sky (take_sky_dome in lambent/first_picture.h).
+struct OpenedScene {
+  Scene scene;
+  std::optional<Scene> sky_dome;
+};
+
 /// Opens the scene, with the lights of the options. Prints the loader's warnings on stderr.
-Expected<Scene> open_lit_scene(const SceneOptions& options);
+Expected<OpenedScene> open_lit_scene(const SceneOptions& options);
 
 /// The camera of a picture, and how it was chosen.
 struct View {

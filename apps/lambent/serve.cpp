@@ -177,15 +177,16 @@ Expected<void> serve_relayed(const ServeOptions& options, const stream::PictureS
   if (!upstream) return tl::unexpected(upstream.error());
   const stream::Welcome& welcome = (*upstream)->welcome();
   begin_step("reading the scene");
-  Expected<Scene> scene = open_lit_scene(options.scene);
-  if (!scene) return tl::unexpected(scene.error());
+  Expected<OpenedScene> opened = open_lit_scene(options.scene);
+  if (!opened) return tl::unexpected(opened.error());
+  Scene& scene = opened->scene;
   begin_step("preparing the scene for rays");
-  World world(*scene);
+  World world(scene);
   // The other server chose its first light by its own view, so choose it here by the same view
   const Camera theirs = stream::camera_of(welcome.camera);
-  const auto light = add_first_light(options.scene.light, theirs, *scene, world);
+  const auto light = add_first_light(options.scene.light, theirs, opened->sky_dome, scene, world);
   if (!light) return tl::unexpected(light.error());
-  if (const auto same = check_same_scene(options.light_from, welcome, *scene); !same) return same;
+  if (const auto same = check_same_scene(options.light_from, welcome, scene); !same) return same;
   Camera camera = theirs;
   const SceneOptions& asked = options.scene;
   if (!asked.camera.empty() || !asked.eye.empty() || !asked.target.empty() || asked.fov_degrees) {
@@ -196,27 +197,29 @@ Expected<void> serve_relayed(const ServeOptions& options, const stream::PictureS
   }
   tell("light: that of " + options.light_from.server +
        (welcome.role == stream::Role::change ? "" : ", which lets nobody change it from here"));
-  return serve_world(options, stream::RelayedWorld{*scene, world, **upstream, camera},
+  return serve_world(options, stream::RelayedWorld{scene, world, **upstream, camera},
                      server_settings(options, pictures, welcome.rate));
 }
 
 /// Serves the scene in light that is computed locally.
 Expected<void> serve_own(const ServeOptions& options, const stream::PictureSettings& pictures) {
   begin_step("reading the scene");
-  Expected<Scene> scene = open_lit_scene(options.scene);
-  if (!scene) return tl::unexpected(scene.error());
-  if (options.server.world.play && scene->animations.empty()) {
+  Expected<OpenedScene> opened = open_lit_scene(options.scene);
+  if (!opened) return tl::unexpected(opened.error());
+  Scene& scene = opened->scene;
+  if (options.server.world.play && scene.animations.empty()) {
     return fail("--play", "", "the scene has no animation that can be played");
   }
   begin_step("preparing the scene for rays");
-  World world(*scene);
+  World world(scene);
   const Expected<View> view = served_view(options, world, pictures.limits.size);
   if (!view) return tl::unexpected(view.error());
-  const auto light = add_first_light(options.scene.light, view->camera, *scene, world);
+  const auto light =
+      add_first_light(options.scene.light, view->camera, opened->sky_dome, scene, world);
   if (!light) return tl::unexpected(light.error());
   tell("camera: " + describe(*view));
   tell("light: " + *light);
-  const auto wanted = field_settings(options.field, *scene, options.seed, -1);
+  const auto wanted = field_settings(options.field, scene, options.seed, -1);
   if (!wanted) return tl::unexpected(wanted.error());
   begin_step("updating the field");
   Expected<IrradianceField> field = make_field(*wanted, options.field, world, view->camera, 1);
@@ -224,7 +227,7 @@ Expected<void> serve_own(const ServeOptions& options, const stream::PictureSetti
   nlohmann::ordered_json stats;
   const UpdateRequest request{0, 0.0, glm::vec3(view->camera.world_from_view[3])};
   update_field(world, options.updates, request, *field, terminal_progress(), stats);
-  return serve_world(options, stream::ServedWorld{*scene, world, *field, view->camera},
+  return serve_world(options, stream::ServedWorld{scene, world, *field, view->camera},
                      server_settings(options, pictures, options.server.world.rate));
 }
 
@@ -244,6 +247,7 @@ Expected<void> read_publish(ServeOptions& options) {
 Expected<void> serve(ServeOptions options) {
   if (const auto fine = check(options); !fine) return fine;
   if (const auto fine = read_publish(options); !fine) return fine;
+  options.scene.keep_sky_dome = options.share_scene;
   const auto pictures = picture_settings(options);
   if (!pictures) return tl::unexpected(pictures.error());
   const glm::uvec2& size = pictures->limits.size;

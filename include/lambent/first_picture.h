@@ -56,6 +56,20 @@ FirstLight choose_first_light(const World& world, const Camera& camera);
 /// scene; call World::update afterwards.
 void set_first_light(FirstLight light, const World& world, const Camera& camera, Scene& scene);
 
+/// Removes the sky that a scene brings as a mesh: a dome or a box of emissive or unlit triangles
+/// that is far around most of the rest. As a surface, it would take nearly all samples of emitters
+/// from lamps indoors, stop the light of suns, and stretch the field's grid. Returns the dome as a
+/// scene of its own with the same lights, for sky_of_dome; none where there is no such mesh, where
+/// it moves or does not cover the sky, or where all else is unlit. Its instance stays, with an
+/// empty mesh.
+std::optional<Scene> take_sky_dome(Scene& scene);
+
+/// A dome's radiance in all directions as seen from `eye_ws`, as a latitude-longitude map with as
+/// many columns as its texture, 256 to 4,096; black where there is no dome. What is unlit emits its
+/// colours [W/(m^2 sr)], or in the light of suns so much more that white is as bright as a clear
+/// sky beside them.
+Environment sky_of_dome(const Scene& dome, const glm::vec3& eye_ws);
+
 /// A box of about 4,096 probes around the surfaces that surround a camera, for fields whose grid
 /// has hardly a cell there, since the scene is far larger than the room or the yard in which the
 /// camera stands. None where the grid is fine enough, and where the camera stands in the open.

@@ -266,6 +266,9 @@ struct Bounds {
   bool operator==(const Bounds&) const = default;
 };
 
+/// World-space bounds of the vertices of one of the scene's instances.
+Bounds instance_bounds(const Scene& scene, const Instance& instance);
+
 /// World-space bounds of all instances' vertices.
 Bounds world_bounds(const Scene& scene);
 

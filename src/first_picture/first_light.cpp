@@ -7,6 +7,7 @@
 #include "first_picture/lamps.h"
 #include "first_picture/seen.h"
 #include "first_picture/studio.h"
+#include "first_picture/subject.h"
 #include "first_picture/survey.h"
 #include "lambent/first_picture.h"
 #include "shared/rays.h"
@@ -20,6 +21,10 @@ constexpr float kMinLitShare = 0.4f;
 // the dark. There, they light a view only if the median radiance of what they light is at least
 // this share of their own, as far as they are visible.
 constexpr float kMinEmissionRatio = 0.1f;
+// Lamps, such as a photographer's soft boxes, differ from signs in that they light nearly all of a
+// view: at least the first share of it. Beside them, it may be darker: a hundredth is still
+// visible where they are white.
+constexpr float kMinLitByLamps = 0.9f, kMinLampRatio = 0.01f;
 // A camera is indoors where at least this share of the directions around it end at a surface.
 constexpr float kMinEnclosure = 0.75f;
 // A room is closed where at most this share of the sky is visible from what the camera sees.
@@ -154,19 +159,20 @@ FirstLight choose_first_light(const World& world, const Camera& camera) {
   const SeenView view = sample_view(world, camera);
   const ViewLight light = measure_view_light(world, view);
   const bool indoors = enclosure(world, camera) >= kMinEnclosure;
+  const bool lit_by_lamps =
+      light.lit_by_emission >= kMinLitByLamps && light.emission_ratio >= kMinLampRatio;
   if (light.lit_by_emission >= kMinLitShare &&
-      (indoors || light.emission_ratio >= kMinEmissionRatio)) {
+      (indoors || lit_by_lamps || light.emission_ratio >= kMinEmissionRatio)) {
     return FirstLight::scene;
   }
   if (indoors) {
     const bool closed = light.sky_visibility <= kMaxSkyIndoors && !has_court(world);
     return closed ? FirstLight::lamps : FirstLight::sun;
   }
-  const Bounds bounds = find_subject(world).bounds;
-  const Bounds all = world_bounds(world.scene());
-  if (bounds.empty()) return FirstLight::studio;
-  return has_ground(world, bounds) || diagonal(all) > 2.0f * diagonal(bounds) ? FirstLight::sun
-                                                                              : FirstLight::studio;
+  const Subject subject = find_subject(world);
+  if (subject.bounds.empty()) return FirstLight::studio;
+  const bool dwarfed = diagonal(subject.site) > 2.0f * diagonal(subject.bounds);
+  return dwarfed || has_ground(world, subject.bounds) ? FirstLight::sun : FirstLight::studio;
 }
 
 void set_first_light(FirstLight light, const World& world, const Camera& camera, Scene& scene) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "first_picture/subject.h"
 #include "first_picture/survey.h"
 #include "shared/constants.h"
 #include "shared/rays.h"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "first_picture/subject.h"
 #include "first_picture/survey.h"
 #include "shared/rays.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bounds of a scene's open space: its bounds without the walls around it.
+// Bounds of a scene's open space: its bounds without the walls around it and without strays.
 #include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "first_picture/survey.h"
+#include "first_picture/subject.h"
 #include "lambent/world.h"
 #include "raytracing/find_solid_sides.h"
 #include "raytracing/raytracer.h"
@@ -121,9 +121,10 @@ float side_inset(const World& world, const SolidSides& sides, bool room, const B
 }  // namespace
 
 Bounds open_bounds(const World& world, std::optional<glm::vec3> viewer_ws) {
-  const Bounds bounds = world_bounds(world.scene());
+  const Subject subject = find_subject(world);
+  const Bounds bounds = subject.site;
   if (bounds.empty()) return bounds;
-  const bool room = is_room(world, find_subject(world));
+  const bool room = is_room(world, subject);
   const SolidSides sides = find_solid_sides(world, {});
   const glm::vec3 viewer = viewer_ws.value_or(0.5f * (bounds.min + bounds.max));
   Bounds open = bounds;

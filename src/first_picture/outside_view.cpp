@@ -36,7 +36,7 @@ constexpr std::array kStands = {
     Stand{30, -20, 0.40f}, Stand{150, -20, 0.50f}, Stand{90, 12, 0.20f},  Stand{-90, 12, 0.22f}};
 // Weights of a candidate's score: the share of the surface that it shows, the share of the frame
 // that the subject covers, and the share of that which shows backs.
-constexpr float kSeenWeight = 0.5f, kCoverWeight = 0.5f, kShownBackWeight = 0.5f;
+constexpr float kSeenWeight = 0.6f, kCoverWeight = 0.4f, kShownBackWeight = 0.25f;
 
 /// Extents of points along a view's axes, widened by perspective. They determine the distance of
 /// the camera.

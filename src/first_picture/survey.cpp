@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/parallel.h"
 #include "raytracing/world_access.h"
@@ -20,12 +19,6 @@ constexpr std::size_t kRaysPerTask = 128;
 // Seeds of the two random sequences: arbitrary, but fixed.
 constexpr std::uint32_t kSurfaceSeed = 1;
 constexpr std::uint32_t kSpaceSeed = 2;
-
-// A ground dwarfs the rest where the rest spans less than this share of it; and a sky, which
-// encloses the rest, where it spans less than this share. Rooms seldom do.
-constexpr float kDwarfedByGround = 0.3f, kDwarfedBySky = 0.1f;
-// Greatest height of a ground, as a share of its width.
-constexpr float kFlatGroundShare = 0.05f;
 
 // Number of places that are tested in a box.
 constexpr int kPlaces = 448;
@@ -71,27 +64,6 @@ std::size_t pick(std::span<const float> sums, float u) {
 
 bool has_two_sides(const Scene& scene, const Hit& hit) {
   return scene.materials[scene.meshes[scene.instances[hit.instance].mesh].material].double_sided;
-}
-
-/// Among the `kept` smallest parts, the number of the largest ones that are grounds and skies and
-/// dwarf the rest; 0: there are none. `around[i]` contains the parts order[0] to order[i].
-std::size_t count_dwarfing(std::span<const Bounds> boxes, std::span<const std::uint32_t> order,
-                           std::span<const Bounds> around, std::size_t kept) {
-  bool sky = false;
-  for (std::size_t left = kept; left-- > 1;) {
-    const Bounds& rest = around[left - 1];
-    const Bounds& largest = boxes[order[left]];
-    const glm::vec3 size = largest.max - largest.min;
-    const bool flat = size.y <= kFlatGroundShare * std::max(size.x, size.z);
-    const bool encloses = glm::all(glm::lessThanEqual(largest.min, rest.min)) &&
-                          glm::all(glm::greaterThanEqual(largest.max, rest.max));
-    if (!flat && !encloses) return 0;
-    sky = sky || !flat;
-    const float share = diagonal(rest) / diagonal(around[kept - 1]);
-    if (share == 0.0f) return 0;
-    if (share < (sky ? kDwarfedBySky : kDwarfedByGround)) return kept - left;
-  }
-  return 0;
 }
 
 }  // namespace
@@ -181,33 +153,6 @@ std::vector<SurfaceSample> sample_surfaces(const Scene& scene,
         {a + weights.x * ab + weights.y * ac, normal * (side / length), with_area[which]});
   }
   return points;
-}
-
-Subject find_subject(const World& world) {
-  const Scene& scene = world.scene();
-  std::vector<std::uint32_t> order;
-  std::vector<Bounds> boxes(scene.instances.size());
-  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-    boxes[i] = world.instance_bounds(static_cast<int>(i));
-    if (!boxes[i].empty()) order.push_back(i);
-  }
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return diagonal(boxes[a]) < diagonal(boxes[b]);
-  });
-  // Compute boxes around the smallest instances, one more at a time
-  std::vector<Bounds> around(order.size());
-  Bounds sum;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    sum.add(boxes[order[i]].min);
-    sum.add(boxes[order[i]].max);
-    around[i] = sum;
-  }
-
-  std::size_t kept = order.size();
-  while (const std::size_t dwarfing = count_dwarfing(boxes, order, around, kept)) kept -= dwarfing;
-  if (kept == 0) return {};
-  order.resize(kept);
-  return {std::move(order), around[kept - 1]};
 }
 
 SpaceSurvey survey_space(const World& world, const Bounds& bounds) {

@@ -38,14 +38,6 @@ std::vector<std::uint8_t> trace_occlusion(const World& world, std::span<const Ra
 /// winding.
 bool shows_back(const Scene& scene, const Hit& hit);
 
-/// The instances that a picture of the scene should show, and a box around them: all of them except
-/// grounds and backdrops that dwarf the rest.
-struct Subject {
-  std::vector<std::uint32_t> instances;
-  Bounds bounds;  ///< Empty where the scene has no surface.
-};
-Subject find_subject(const World& world);
-
 /// A place where a person could be: air, with a floor below and surfaces in most directions around.
 struct OpenPlace {
   glm::vec3 position_ws{0.0f};  ///< [m]
@@ -65,13 +57,6 @@ struct SpaceSurvey {
   float two_sided_share = 0.0f;
 };
 SpaceSurvey survey_space(const World& world, const Bounds& bounds);
-
-/// Whether a scene is a shell around most of its contents: by the share of its box that is enclosed
-/// air, and by the share of its surfaces whose front is visible from outside.
-bool is_room(const World& world, const Subject& subject, const SpaceSurvey& survey);
-inline bool is_room(const World& world, const Subject& subject) {
-  return !subject.bounds.empty() && is_room(world, subject, survey_space(world, subject.bounds));
-}
 
 /// Length of a box's diagonal [m].
 inline float diagonal(const Bounds& bounds) {

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "first_picture/subject.h"
 #include "first_picture/survey.h"
 #include "lambent/first_picture.h"
 

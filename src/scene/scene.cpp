@@ -23,12 +23,21 @@ Camera look_at(const glm::vec3& eye, const glm::vec3& target, float vertical_fov
   return camera;
 }
 
+Bounds instance_bounds(const Scene& scene, const Instance& instance) {
+  Bounds bounds;
+  for (const glm::vec3& position : scene.meshes[instance.mesh].positions) {
+    bounds.add(glm::vec3(instance.world_from_object * glm::vec4(position, 1.0f)));
+  }
+  return bounds;
+}
+
 Bounds world_bounds(const Scene& scene) {
   Bounds bounds;
   for (const Instance& instance : scene.instances) {
-    for (const glm::vec3& position : scene.meshes[instance.mesh].positions) {
-      bounds.add(glm::vec3(instance.world_from_object * glm::vec4(position, 1.0f)));
-    }
+    const Bounds own = instance_bounds(scene, instance);
+    if (own.empty()) continue;
+    bounds.add(own.min);
+    bounds.add(own.max);
   }
   return bounds;
 }

@@ -88,6 +88,20 @@ TEST(FirstLight, IsNotWhatSignsGlow) {
   EXPECT_EQ(chosen(scene), FirstLight::studio);
 }
 
+TEST(FirstLight, IsWhatSoftBoxesSendWhereTheyLightAll) {
+  // One is in the picture, fifty times as bright as what it lights
+  Scene scene = scene_of({box_mesh({-0.2f, 0, -0.2f}, {0.2f, 0.5f, 0.2f})});
+  scene.materials.push_back(test::lambert(glm::vec3(0.0f), glm::vec3(30.0f)));
+  test::add(scene, test::quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 0));
+  test::add(scene, test::quad({-0.9f, 0.9f, 0.9f}, {0.3f, 0, 0.3f}, {0.1f, 0.4f, -0.1f}, 1));
+  const World world(scene);
+  const Camera camera = look_at({0, 1, 3}, {0, 0.4f, 0}, 0.8f);
+  const ViewLight light = measure_view_light(world, sample_view(world, camera));
+  ASSERT_LT(light.emission_ratio, 0.1f) << light.lit_by_emission;
+  ASSERT_GT(light.lit_by_emission, 0.9f) << light.emission_ratio;
+  EXPECT_EQ(choose_first_light(world, camera), FirstLight::scene);
+}
+
 TEST(FirstLight, LampsReachMostOfWhatTheCameraSees) {
   for (const char* name : {"two-rooms", "house"}) {
     Scene scene = unlit(name);

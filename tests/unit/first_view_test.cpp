@@ -2,6 +2,7 @@
 // Where the first picture is taken from, in scenes that nobody described.
 #include <gtest/gtest.h>
 
+#include "first_picture/subject.h"
 #include "first_picture/survey.h"
 #include "lambent/first_picture.h"
 #include "raytracing/world_access.h"
@@ -105,6 +106,36 @@ TEST(FirstView, FitsObjectsOfAnyShapeSizeAndPlace) {
       EXPECT_GT(coverage.met, 0.02f) << scale << ": " << size.x << " " << size.y << " " << size.z;
     }
   }
+}
+
+TEST(FirstView, LeavesOutStraysThatAreFarAway) {
+  // Two of them, in two directions, around five boxes on a ground that dwarfs these
+  std::vector<Mesh> meshes;
+  for (int i = 0; i < 5; ++i) {
+    const vec3 low(3.0f * static_cast<float>(i), 0.0f, static_cast<float>(i % 2));
+    meshes.push_back(box_mesh(low, low + vec3(2.0f)));
+  }
+  meshes.push_back(box_mesh({-60, -1, -60}, {60, 0, 60}));
+  const Scene alone = scene_of(meshes);
+  meshes.push_back(box_mesh({9000, -40, 3000}, {9001, -39, 3001}));
+  meshes.push_back(box_mesh({-7000, 900, 0}, {-6998, 902, 2}));
+  const Scene scene = scene_of(meshes);
+  const World world(scene), before(alone);
+  EXPECT_EQ(first_view(world).value().camera.world_from_view,
+            first_view(before).value().camera.world_from_view);
+  EXPECT_EQ(open_bounds(world), open_bounds(before));
+  // Things as far from each other as planets are no strays
+  const World planets(scene_of({box_mesh({0, 0, 0}, {2, 2, 2}), box_mesh({9, 0, 0}, {11, 2, 2}),
+                                box_mesh({38, 0, 0}, {40, 2, 2})}));
+  EXPECT_EQ(find_subject(planets).instances.size(), 3u);
+}
+
+TEST(FirstView, IsFromTheFrontOfABackdropWhoseTrianglesFaceBackwards) {
+  Scene scene = scene_of({box_mesh({-0.2f, 0, -0.2f}, {0.2f, 0.5f, 0.2f})});
+  // A floor and a wall behind
+  test::add(scene, test::quad({-2, 0, -1.5f}, {4, 0, 0}, {0, 0, 3}, 0));
+  test::add(scene, test::quad({-2, 0, -1.5f}, {0, 2, 0}, {4, 0, 0}, 0));
+  EXPECT_GT(eye_of(first_view(World(scene)).value().camera).z, 0.0f);
 }
 
 TEST(FirstView, KeepsTheWholeObjectInFramesOfAnyShape) {

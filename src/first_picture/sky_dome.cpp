@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// Skies that scenes bring as meshes.
+#include <algorithm>
+#include <glm/gtc/constants.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/parallel.h"
+#include "first_picture/studio.h"
+#include "first_picture/subject.h"
+#include "first_picture/survey.h"
+#include "lambent/first_picture.h"
+#include "raytracing/surface.h"
+#include "raytracing/world_access.h"
+#include "scene/attributes.h"
+#include "scene/latitude_longitude.h"
+#include "shared/color.h"
+
+namespace lambent {
+namespace {
+
+// Number of directions from the middle of the scene in which a dome is looked for. It need not
+// reach down to the horizon, which the ground may hide: those below this height do not count.
+constexpr int kDomeRays = 128;
+constexpr float kLeastHeight = 0.2f;
+// Share of them in which it must emit: it may have small gaps, and black spots.
+constexpr float kMinDome = 0.95f;
+// Its least distance from the middle of the scene, over the reach of half of what is in it: where a
+// dome is nearer, its light differs from place to place.
+constexpr float kFar = 5.0f;
+// A dome's diagonal is at least this share of the scene's, which the ground below may exceed.
+constexpr float kMinSize = 0.2f;
+// Columns of the map: as many as the dome's texture has, within these. The edge of half a dome
+// needs some; more than the upper limit would take longer than the rest of a picture.
+constexpr int kMinColumns = 256, kMaxColumns = 4096;
+// Width of a dome without a texture, as a texture [texels].
+constexpr int kNoTexture = 1;
+
+/// Whether a surface may be a sky: it emits, nothing can be seen through it, and it does not move.
+bool may_be_sky(const Scene& scene, const Instance& instance) {
+  const Material& material = scene.materials[scene.meshes[instance.mesh].material];
+  return may_emit(material) && material.alpha_mode == AlphaMode::opaque &&
+         material.transmission == 0.0f && !instance.dynamic;
+}
+
+bool contains(const Bounds& box, const glm::vec3& point) {
+  return glm::all(glm::lessThan(box.min, point)) && glm::all(glm::greaterThan(box.max, point));
+}
+
+const TextureView& emission_view(const Material& material) {
+  return material.unlit ? material.base_color_texture : material.emission_texture;
+}
+
+/// Copies an instance into a scene that holds what it emits and nothing else.
+void copy_emission(const Scene& scene, const Instance& instance, Scene& dome) {
+  const Mesh& mesh = scene.meshes[instance.mesh];
+  const Material& source = scene.materials[mesh.material];
+  Material material;
+  material.unlit = source.unlit;
+  material.base_color = source.base_color;
+  material.emission = source.emission;
+  TextureView view = emission_view(source);
+  if (view.texture >= 0) {
+    dome.textures.push_back(scene.textures[view.texture]);
+    view.texture = static_cast<int>(dome.textures.size()) - 1;
+  }
+  (material.unlit ? material.base_color_texture : material.emission_texture) = view;
+  dome.materials.push_back(material);
+  dome.meshes.push_back(mesh);
+  dome.meshes.back().material = static_cast<int>(dome.materials.size()) - 1;
+  dome.instances.push_back(instance);
+  dome.instances.back().mesh = static_cast<int>(dome.meshes.size()) - 1;
+}
+
+glm::vec3 emission_at(const World& dome, const Ray& ray, const Hit& hit) {
+  return hit.missed() ? glm::vec3(0.0f) : surface_at(dome.scene(), ray, hit).emission;
+}
+
+/// Whether the dome emits in nearly all directions above the horizon, from far away.
+bool covers_sky(const World& dome, const Middle& middle) {
+  std::vector<Ray> rays = rays_around(middle.position_ws, kDomeRays);
+  std::erase_if(rays, [](const Ray& ray) { return ray.direction.y < kLeastHeight; });
+  const std::vector<Hit> hits = trace(dome, rays);
+  float covered = 0.0f;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (hits[i].distance < kFar * middle.reach) return false;
+    if (emission_at(dome, rays[i], hits[i]) != glm::vec3(0.0f)) covered += 1.0f;
+  }
+  return covered >= kMinDome * static_cast<float>(rays.size());
+}
+
+/// Factor on what an unlit dome emits: its colours have no unit, so that beside a sun they are
+/// taken for those of a sky that suits it.
+float unlit_factor(const Scene& dome) {
+  if (!dome.materials.front().unlit) return 1.0f;
+  float suns = 0.0f;
+  for (const Light& light : dome.lights) {
+    if (light.type == Light::Type::directional) suns += luminance(light.intensity);
+  }
+  return std::max(1.0f, suns * luminance(kFirstSky) / luminance(kFirstSunIrradiance));
+}
+
+int columns_for(const Scene& dome) {
+  int columns = kNoTexture;
+  for (const Texture& texture : dome.textures) {
+    columns = std::max(columns, texture.levels.front().width);
+  }
+  return std::clamp(columns, kMinColumns, kMaxColumns);
+}
+
+}  // namespace
+
+std::optional<Scene> take_sky_dome(Scene& scene) {
+  std::vector<Bounds> boxes;
+  Bounds all;
+  for (const Instance& instance : scene.instances) {
+    boxes.push_back(instance_bounds(scene, instance));
+    if (boxes.back().empty()) continue;
+    all.add(boxes.back().min);
+    all.add(boxes.back().max);
+  }
+  std::vector<std::uint32_t> candidates, rest;
+  bool any_lit = false;
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+    if (boxes[i].empty()) continue;
+    const bool large = diagonal(boxes[i]) >= kMinSize * diagonal(all);
+    (large && may_be_sky(scene, scene.instances[i]) ? candidates : rest).push_back(i);
+  }
+  for (const std::uint32_t i : rest) {
+    any_lit |= !scene.materials[scene.meshes[scene.instances[i].mesh].material].unlit;
+  }
+  if (candidates.empty() || !any_lit) return std::nullopt;
+
+  const Middle middle = find_middle(scene, boxes, rest);
+  Scene taken;
+  std::vector<std::uint32_t> domes;
+  for (const std::uint32_t i : candidates) {
+    if (!contains(boxes[i], middle.position_ws)) continue;
+    Scene dome;
+    copy_emission(scene, scene.instances[i], dome);
+    if (!covers_sky(World(dome), middle)) continue;
+    copy_emission(scene, scene.instances[i], taken);
+    domes.push_back(i);
+  }
+  if (domes.empty()) return std::nullopt;
+  taken.lights = scene.lights;
+  Mesh nothing;
+  nothing.material = scene.meshes[scene.instances[domes.front()].mesh].material;
+  scene.meshes.push_back(std::move(nothing));
+  for (const std::uint32_t i : domes) {
+    scene.instances[i].mesh = static_cast<int>(scene.meshes.size()) - 1;
+  }
+  return taken;
+}
+
+Environment sky_of_dome(const Scene& dome, const glm::vec3& eye_ws) {
+  const World world(dome);
+  const int columns = columns_for(dome), rows = columns / 2;
+  Environment sky;
+  sky.radiance = glm::vec3(unlit_factor(dome));
+  sky.map = Image(columns, rows, 3);
+  parallel_chunks(static_cast<std::size_t>(rows), 1, [&](std::size_t row, std::size_t) {
+    const int y = static_cast<int>(row);
+    std::vector<Ray> rays;
+    for (int x = 0; x < columns; ++x) {
+      const glm::vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(columns),
+                         (static_cast<float>(y) + 0.5f) / static_cast<float>(rows));
+      rays.push_back({eye_ws, 0.0f, direction_from_latitude_longitude(uv, 0.0f)});
+    }
+    std::vector<Hit> hits(rays.size());
+    tracer_of(world).closest_hits(rays, hits);
+    for (int x = 0; x < columns; ++x) {
+      const glm::vec3 radiance = emission_at(world, rays[x], hits[x]);
+      for (int c = 0; c < 3; ++c) sky.map.at(x, y)[c] = radiance[c];
+    }
+  });
+  return sky;
+}
+
+}  // namespace lambent

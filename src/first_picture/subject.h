@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a picture of a scene should show: its instances without what is around them or far away.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "first_picture/survey.h"
+#include "lambent/world.h"
+
+namespace lambent {
+
+/// The instances that a picture of a scene should show.
+struct Subject {
+  std::vector<std::uint32_t> instances;
+  Bounds bounds;  ///< Around these; empty where the scene has no surface.
+  /// Around these and the grounds and skies that dwarf them: all but strays, which are far away.
+  Bounds site;
+};
+
+Subject find_subject(const World& world);
+
+/// Where most of some instances' triangles are.
+struct Middle {
+  /// Along each axis, half of the triangles belong to instances whose centre is on either side [m].
+  glm::vec3 position_ws{0.0f};
+  float reach = 0.0f;  ///< Half of them belong to instances that end no farther from it [m].
+};
+/// `boxes`: bounds of all of the scene's instances in world space.
+Middle find_middle(const Scene& scene, std::span<const Bounds> boxes,
+                   std::vector<std::uint32_t> instances);
+
+/// Whether a scene is a shell around most of its contents: by the share of its box that is enclosed
+/// air, and by the share of its surfaces whose front is visible from outside.
+bool is_room(const World& world, const Subject& subject, const SpaceSurvey& survey);
+inline bool is_room(const World& world, const Subject& subject) {
+  return !subject.bounds.empty() && is_room(world, subject, survey_space(world, subject.bounds));
+}
+
+}  // namespace lambent

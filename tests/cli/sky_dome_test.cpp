@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of scenes that bring their sky as a mesh.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "lambent/image.h"
+#include "scenes/glb_writer.h"
+#include "support/box_scenes.h"
+#include "support/hand_made.h"
+#include "support/program.h"
+#include "support/temporary_directory.h"
+
+namespace lambent::sky_dome_test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::string kQuick =
+    " --method reference --samples 256 --size 24x24 --eye=0,3,14 --target=0,1,0 -o ";
+
+/// A box on a ground, lit by nothing but a dome that is brighter on one side.
+Scene scene_under_a_dome() {
+  Scene scene = test::scene_of(
+      {test::box_mesh({-2, 0, -2}, {2, 3, 2}), test::box_mesh({-30, -1, -30}, {30, 0, 30})});
+  Material blue;
+  blue.unlit = true;
+  blue.base_color = glm::vec4(0.4f, 0.7f, 1.0f, 1.0f);
+  scene.materials.push_back(blue);
+  Mesh dome = test::sphere(400.0f, 24, 1);
+  for (const glm::vec3& p : dome.positions) {
+    dome.colors.emplace_back(glm::vec3(p.x < 0.0f ? 1.0f : 0.3f), 1.0f);
+  }
+  test::add(scene, std::move(dome));
+  return scene;
+}
+
+glm::dvec3 mean_of(const std::string& path) {
+  const auto read = read_image(path);
+  EXPECT_TRUE(read.has_value());
+  const Image& all = read->layers[0].image;
+  glm::dvec3 sum(0.0);
+  for (int y = 0; y < all.height; ++y) {
+    for (int x = 0; x < all.width; ++x) {
+      for (int c = 0; c < 3; ++c) sum[c] += all.at(x, y)[c];
+    }
+  }
+  return sum / static_cast<double>(all.width * all.height);
+}
+
+TEST(SkyDomes, LightAsTheyDoAsMeshes) {
+  const test::TemporaryDirectory directory;
+  const std::string scene = directory.file("dome.glb");
+  ASSERT_TRUE(scenes::write_glb(scene_under_a_dome(), scene));
+  const std::string sky = directory.file("sky.exr"), mesh = directory.file("mesh.exr");
+  const auto as_sky = test::run_program("render " + scene + kQuick + sky);
+  ASSERT_EQ(as_sky.status, 0) << as_sky.errors;
+  EXPECT_THAT(as_sky.errors, HasSubstr("the dome around it as its sky"));
+  // --light none leaves what surfaces emit
+  const auto as_mesh = test::run_program("render " + scene + kQuick + mesh + " --light none");
+  ASSERT_EQ(as_mesh.status, 0) << as_mesh.errors;
+  EXPECT_THAT(as_mesh.errors, Not(HasSubstr("the dome")));
+  const glm::dvec3 with_sky = mean_of(sky), with_mesh = mean_of(mesh);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(with_sky[c] / with_mesh[c], 1.0, 0.02) << c;
+}
+
+TEST(SkyDomes, GiveWayToAnotherSky) {
+  const test::TemporaryDirectory directory;
+  const std::string scene = directory.file("dome.glb"), red = directory.file("red.exr");
+  ASSERT_TRUE(scenes::write_glb(scene_under_a_dome(), scene));
+  const auto run = test::run_program("render " + scene + kQuick + red + " --sky 1,0,0");
+  ASSERT_EQ(run.status, 0) << run.errors;
+  EXPECT_EQ(mean_of(red).z, 0.0);
+  EXPECT_GT(mean_of(red).x, 0.3);
+}
+
+}  // namespace
+}  // namespace lambent::sky_dome_test

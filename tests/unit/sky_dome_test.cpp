@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// Skies that scenes bring as meshes.
+#include <gtest/gtest.h>
+
+#include "lambent/first_picture.h"
+#include "lambent/world.h"
+#include "scene/latitude_longitude.h"
+#include "support/box_scenes.h"
+#include "support/hand_made.h"
+
+namespace lambent::sky_dome_test {
+namespace {
+
+using glm::vec3;
+using test::box_mesh;
+
+constexpr float kRadius = 300.0f;
+const vec3 kBlue(1.0f, 2.0f, 4.0f);
+
+/// A house-sized box on a lawn, under a dome that emits kBlue.
+Scene under_a_dome() {
+  Scene scene =
+      test::scene_of({box_mesh({-5, 0, -5}, {5, 4, 5}), box_mesh({-200, -1, -200}, {200, 0, 200})});
+  scene.materials.push_back(test::lambert(vec3(0.0f), kBlue));
+  test::add(scene, test::sphere(kRadius, 16, 1));
+  return scene;
+}
+
+vec3 radiance(const Environment& sky, const vec3& direction) {
+  const vec2 uv = latitude_longitude_from_direction(glm::normalize(direction), 0.0f);
+  const float* texel = sky.map.at(static_cast<int>(uv.x * static_cast<float>(sky.map.width)),
+                                  static_cast<int>(uv.y * static_cast<float>(sky.map.height)));
+  return sky.radiance * vec3(texel[0], texel[1], texel[2]);
+}
+
+TEST(SkyDome, BecomesTheSky) {
+  Scene scene = under_a_dome();
+  const std::optional<Scene> dome = take_sky_dome(scene);
+  ASSERT_TRUE(dome.has_value());
+  const Bounds left = world_bounds(scene);
+  EXPECT_EQ(left.max, vec3(200, 4, 200));
+  EXPECT_EQ(scene.instances.size(), 3u);
+  scene.environment = sky_of_dome(*dome, {3, 1.6f, 9});
+  for (const vec3& way : {vec3(0, 1, 0), vec3(1, 0.1f, 0), vec3(-1, -1, 2)}) {
+    EXPECT_EQ(radiance(scene.environment, way), kBlue);
+  }
+  // What is left is a world that can be traced
+  const World world(scene);
+  EXPECT_EQ(choose_first_light(world, look_at({0, 2, 20}, {0, 2, 0}, 0.8f)), FirstLight::scene);
+}
+
+TEST(SkyDome, IsSeenFromTheCamera) {
+  // Two colours, above and below a plane 30 m over the ground: the limit is at the horizon of an
+  // eye at that height, and above that of one on the ground
+  Scene scene = under_a_dome();
+  Mesh& sphere = scene.meshes[2];
+  scene.materials[1] = {};
+  scene.materials[1].unlit = true;
+  for (const vec3& p : sphere.positions) {
+    sphere.colors.emplace_back(p.y > 30.0f ? vec3(0.2f) : vec3(0.8f), 1.0f);
+  }
+  const std::optional<Scene> dome = take_sky_dome(scene);
+  ASSERT_TRUE(dome.has_value());
+  const vec3 way(1.0f, 0.0f, 0.3f);
+  EXPECT_GT(radiance(sky_of_dome(*dome, vec3(0.0f)), way).x, 0.75f);
+  EXPECT_LT(radiance(sky_of_dome(*dome, vec3(0.0f, 70.0f, 0.0f)), way).x, 0.25f);
+}
+
+TEST(SkyDome, HasItsTextureOnTheSameSide) {
+  Scene scene = under_a_dome();
+  // A texture whose left half is bright; the sphere's u grows from +Z towards +X
+  Texture texture;
+  texture.levels.push_back({2, 1, {255, 255, 255, 255, 10, 0, 0, 255}});
+  build_mips(texture);
+  scene.textures.push_back(texture);
+  scene.materials[1].emission_texture.texture = 0;
+  const std::optional<Scene> dim = take_sky_dome(scene);
+  ASSERT_TRUE(dim.has_value());
+  const Environment sky = sky_of_dome(*dim, vec3(0.0f));
+  EXPECT_NEAR(radiance(sky, {1, 0.2f, 0}).x, kBlue.x, 0.01f);
+  EXPECT_LT(radiance(sky, {-1, 0.2f, 0}).x, 0.1f * kBlue.x);
+}
+
+TEST(SkyDome, MayBeHalfASphere) {
+  Scene scene = under_a_dome();
+  Mesh& sphere = scene.meshes[2];
+  std::erase_if(sphere.triangles, [&](const glm::uvec3& t) {
+    return sphere.positions[t.x].y + sphere.positions[t.y].y + sphere.positions[t.z].y < 0.0f;
+  });
+  const std::optional<Scene> dome = take_sky_dome(scene);
+  ASSERT_TRUE(dome.has_value());
+  const Environment sky = sky_of_dome(*dome, {0, 2, 9});
+  EXPECT_EQ(radiance(sky, {0, 1, 3}), kBlue);
+  EXPECT_EQ(radiance(sky, {0, -1, 3}), vec3(0.0f));
+}
+
+TEST(SkyDome, OfColoursIsAsBrightAsTheSunNeeds) {
+  Scene scene = under_a_dome();
+  scene.materials[1] = {};
+  scene.materials[1].unlit = true;
+  scene.materials[1].base_color = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f);
+  Scene sunny = scene;
+  sunny.lights.push_back(test::sun(vec3(100.0f), {0, -1, 0}));
+  const Environment sky = sky_of_dome(*take_sky_dome(scene), vec3(0.0f));
+  EXPECT_FLOAT_EQ(radiance(sky, {0, 1, 0}).x, 0.5f);
+  // A clear sky's radiance is about a tenth of its sun's irradiance
+  const Environment brighter = sky_of_dome(*take_sky_dome(sunny), vec3(0.0f));
+  EXPECT_NEAR(radiance(brighter, {0, 1, 0}).x, 5.0f, 1.0f);
+}
+
+TEST(SkyDome, IsNotAnyOtherSurface) {
+  const auto is_taken = [](Scene scene) {
+    const Bounds before = world_bounds(scene);
+    const bool taken = take_sky_dome(scene).has_value();
+    EXPECT_NE(taken, world_bounds(scene) == before);
+    return taken;
+  };
+  EXPECT_TRUE(is_taken(under_a_dome()));
+
+  Scene dark = under_a_dome();
+  dark.materials[1].emission = vec3(0.0f);
+  EXPECT_FALSE(is_taken(dark));
+  Scene clear = under_a_dome();
+  clear.materials[1].alpha_mode = AlphaMode::blend;
+  EXPECT_FALSE(is_taken(clear));
+  Scene moving = under_a_dome();
+  moving.instances[2].dynamic = true;
+  EXPECT_FALSE(is_taken(moving));
+  // A room with glowing walls, and a tent of light around a product
+  Scene room = under_a_dome();
+  room.instances[2].world_from_object = glm::mat4(glm::mat3(10.0f / kRadius));
+  room.instances.erase(room.instances.begin() + 1);
+  EXPECT_FALSE(is_taken(room));
+  // A panorama with nothing in it, and one where all else shows its colours, too
+  Scene panorama = under_a_dome();
+  panorama.instances.erase(panorama.instances.begin(), panorama.instances.begin() + 2);
+  EXPECT_FALSE(is_taken(panorama));
+  Scene unlit = under_a_dome();
+  unlit.materials[0].unlit = true;
+  EXPECT_FALSE(is_taken(unlit));
+  EXPECT_FALSE(is_taken(Scene{}));
+}
+
+}  // namespace
+}  // namespace lambent::sky_dome_test
