@@ -6,6 +6,7 @@
 
 #include "first_picture/subject.h"
 #include "first_picture/survey.h"
+#include "scene/limits.h"
 #include "shared/rays.h"
 
 namespace lambent {
@@ -74,7 +75,8 @@ Light make_lamp(const glm::vec3& position_ws, float height) {
   lamp.name = "lamp";
   lamp.type = Light::Type::point;
   lamp.position_ws = position_ws;
-  lamp.intensity = kIrradianceBelow * height * height * kWarmWhite;
+  // Rooms of more than 200 km are lit as those
+  lamp.intensity = std::min(kIrradianceBelow * height * height, kMaxIntensity) * kWarmWhite;
   return lamp;
 }
 

@@ -54,6 +54,17 @@ TEST(GltfLights, SpotsHaveCones) {
   EXPECT_EQ(light.outer_cone_angle, 0.5f);
 }
 
+TEST(GltfLights, NumbersOutOfRangeAreBroughtIntoIt) {
+  const Expected<Scene> scene = with_light(Json::parse(R"({"type": "spot", "range": 0,
+      "intensity": -3, "spot": {"outerConeAngle": 4}})"));
+  ASSERT_TRUE(scene) << error_of(scene);
+  const Light& light = scene->lights.at(0);
+  EXPECT_EQ(light.range, 0.0f);  // infinite
+  EXPECT_EQ(light.intensity, glm::vec3(0.0f));
+  expect_near(glm::vec3(light.outer_cone_angle), glm::vec3(1.5707963f));
+  EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("3 numbers out of the range of glTF")));
+}
+
 TEST(GltfLights, UnknownTypesAreErrors) {
   EXPECT_THAT(error_of(with_light({{"type", "area"}})),
               HasSubstr("extensions.KHR_lights_punctual.lights[0].type"));

@@ -306,7 +306,11 @@ Expected<Document> read_document(ByteSpan bytes, const std::string& file, bool f
   document.model.extensionsUsed = strings_of(root, "extensionsUsed");
   document.model.extensionsRequired = strings_of(root, "extensionsRequired");
   LAMBENT_CHECK(check_extensions(document));
-  LAMBENT_CHECK(check_schema(root, file));
+  LAMBENT_TRY(repaired, check_schema(root, file));
+  for (const std::string& place : repaired) {
+    document.repaired("numbers out of the range of glTF were brought into it or left out", 1,
+                      place);
+  }
   LAMBENT_CHECK(check_version(document, root["asset"]));
 
   if (root.contains("buffers")) LAMBENT_CHECK(read_buffers(document, root["buffers"], chunks));

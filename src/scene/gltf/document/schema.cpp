@@ -3,11 +3,13 @@
 // each extension. One row per property; properties that are not listed are not read.
 #include "scene/gltf/document/schema.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "scene/limits.h"
 
@@ -26,6 +28,8 @@ enum class Kind {
   ids,             // an object whose members are whole numbers
   whole,           // an integer from `low` to `high`
   number,          // from `low` to `high`
+  factor,          // the same, but one that is out of range is brought into it
+  reach,           // a number above 0; others are removed
   numbers,         // a list of `high` finite numbers; any number of them where `high` is 0. Their
                    // absolute values are at most `low`, where that is not 0
   string,
@@ -143,12 +147,12 @@ constexpr Rule kRules[] = {
     {"material", "emissiveTexture", Kind::object, "textureInfo"},
     {"material", "emissiveFactor", Kind::numbers, "", 0, 3},
     {"material", "alphaMode", Kind::string},
-    {"material", "alphaCutoff", Kind::number, "", 0, kAnyFloat},
+    {"material", "alphaCutoff", Kind::factor, "", 0, kAnyFloat},
     {"material", "doubleSided", Kind::boolean},
     {"material", "extensions", Kind::object, "materialExtensions"},
     {"metallicRoughness", "baseColorFactor", Kind::numbers, "", 0, 4},
-    {"metallicRoughness", "metallicFactor", Kind::number, "", 0, 1},
-    {"metallicRoughness", "roughnessFactor", Kind::number, "", 0, 1},
+    {"metallicRoughness", "metallicFactor", Kind::factor, "", 0, 1},
+    {"metallicRoughness", "roughnessFactor", Kind::factor, "", 0, 1},
     {"metallicRoughness", "baseColorTexture", Kind::object, "textureInfo"},
     {"metallicRoughness", "metallicRoughnessTexture", Kind::object, "textureInfo"},
     {"textureInfo", "index", Kind::index, "/textures", 0, 0, kRequired},
@@ -161,11 +165,11 @@ constexpr Rule kRules[] = {
     {"textureTransform", "scale", Kind::numbers, "", kMaxTextureCoordinate, 2},
     {"textureTransform", "texCoord", Kind::whole, "", 0, kAnyInt},
     {"materialExtensions", "KHR_materials_emissive_strength", Kind::object, "emissiveStrength"},
-    {"emissiveStrength", "emissiveStrength", Kind::number, "", 0, kAnyFloat},
+    {"emissiveStrength", "emissiveStrength", Kind::factor, "", 0, kAnyFloat},
     {"materialExtensions", "KHR_materials_ior", Kind::object, "ior"},
-    {"ior", "ior", Kind::number, "", 0, kMaxFactor},
+    {"ior", "ior", Kind::factor, "", 0, kMaxFactor},
     {"materialExtensions", "KHR_materials_specular", Kind::object, "specular"},
-    {"specular", "specularFactor", Kind::number, "", 0, 1},
+    {"specular", "specularFactor", Kind::factor, "", 0, 1},
     {"specular", "specularColorFactor", Kind::numbers, "", 0, 3},
     {"specular", "specularTexture", Kind::object, "textureInfo"},
     {"specular", "specularColorTexture", Kind::object, "textureInfo"},
@@ -174,26 +178,26 @@ constexpr Rule kRules[] = {
     {"specularGlossiness", "diffuseFactor", Kind::numbers, "", 0, 4},
     {"specularGlossiness", "diffuseTexture", Kind::object, "textureInfo"},
     {"specularGlossiness", "specularFactor", Kind::numbers, "", 0, 3},
-    {"specularGlossiness", "glossinessFactor", Kind::number, "", 0, 1},
+    {"specularGlossiness", "glossinessFactor", Kind::factor, "", 0, 1},
     {"specularGlossiness", "specularGlossinessTexture", Kind::object, "textureInfo"},
     {"materialExtensions", "KHR_materials_clearcoat", Kind::object, "clearcoat"},
-    {"clearcoat", "clearcoatFactor", Kind::number, "", 0, 1},
+    {"clearcoat", "clearcoatFactor", Kind::factor, "", 0, 1},
     {"clearcoat", "clearcoatTexture", Kind::object, "textureInfo"},
-    {"clearcoat", "clearcoatRoughnessFactor", Kind::number, "", 0, 1},
+    {"clearcoat", "clearcoatRoughnessFactor", Kind::factor, "", 0, 1},
     {"clearcoat", "clearcoatRoughnessTexture", Kind::object, "textureInfo"},
     {"clearcoat", "clearcoatNormalTexture", Kind::object, "textureInfo"},
     {"materialExtensions", "KHR_materials_sheen", Kind::object, "sheen"},
     {"sheen", "sheenColorFactor", Kind::numbers, "", 0, 3},
     {"sheen", "sheenColorTexture", Kind::object, "textureInfo"},
-    {"sheen", "sheenRoughnessFactor", Kind::number, "", 0, 1},
+    {"sheen", "sheenRoughnessFactor", Kind::factor, "", 0, 1},
     {"sheen", "sheenRoughnessTexture", Kind::object, "textureInfo"},
     {"materialExtensions", "KHR_materials_transmission", Kind::object, "transmission"},
-    {"transmission", "transmissionFactor", Kind::number, "", 0, 1},
+    {"transmission", "transmissionFactor", Kind::factor, "", 0, 1},
     {"transmission", "transmissionTexture", Kind::object, "textureInfo"},
     {"materialExtensions", "KHR_materials_volume", Kind::object, "volume"},
-    {"volume", "thicknessFactor", Kind::number, "", 0, kAnyFloat},
+    {"volume", "thicknessFactor", Kind::factor, "", 0, kAnyFloat},
     {"volume", "thicknessTexture", Kind::object, "textureInfo"},
-    {"volume", "attenuationDistance", Kind::number, "", 0, kAnyFloat},
+    {"volume", "attenuationDistance", Kind::factor, "", 0, kAnyFloat},
     {"volume", "attenuationColor", Kind::numbers, "", kAnyFloat, 3},
     {"materialExtensions", "KHR_materials_unlit", Kind::object, "unlit"},
 
@@ -233,11 +237,11 @@ constexpr Rule kRules[] = {
     {"light", "name", Kind::string},
     {"light", "type", Kind::string, "", 0, 0, kRequired},
     {"light", "color", Kind::numbers, "", 0, 3},
-    {"light", "intensity", Kind::number, "", 0, kAnyFloat},
-    {"light", "range", Kind::number, "", kTiny, kAnyFloat},
+    {"light", "intensity", Kind::factor, "", 0, kAnyFloat},
+    {"light", "range", Kind::reach},
     {"light", "spot", Kind::object, "spot"},
-    {"spot", "innerConeAngle", Kind::number, "", 0, kQuarterTurn},
-    {"spot", "outerConeAngle", Kind::number, "", kTiny, kQuarterTurn},
+    {"spot", "innerConeAngle", Kind::factor, "", 0, kQuarterTurn},
+    {"spot", "outerConeAngle", Kind::factor, "", kTiny, kQuarterTurn},
 };
 
 // A bound for display: whole numbers without an exponent.
@@ -250,10 +254,12 @@ std::string text_of(double bound) {
 
 class Checker {
  public:
-  Checker(const json& root, const std::string& file) : root_(root), file_(file) {}
+  Checker(json& root, const std::string& file) : root_(root), file_(file) {}
 
-  Expected<void> check_object(const json& value, const char* shape,
-                              const std::string& place) const {
+  /// Places of the numbers that were brought into their range.
+  std::vector<std::string> repaired;
+
+  Expected<void> check_object(json& value, const char* shape, const std::string& place) {
     if (!value.is_object()) return wrong(place.empty() ? "JSON" : place, "must be an object");
     for (const Rule& rule : kRules) {
       if (std::strcmp(rule.shape, shape) != 0) continue;
@@ -261,6 +267,13 @@ class Checker {
       const std::string member_place = place.empty() ? rule.key : place + "." + rule.key;
       if (member == value.end()) {
         if (rule.required) return wrong(member_place, "is required but missing");
+        continue;
+      }
+      if (rule.kind == Kind::reach) {
+        if (!member->is_number()) return wrong(member_place, "must be a number");
+        if (member->get<double>() >= kTiny && member->get<double>() <= kAnyFloat) continue;
+        repaired.push_back(member_place);
+        value.erase(member);
         continue;
       }
       if (Expected<void> fine = check_value(*member, rule, member_place); !fine) return fine;
@@ -275,7 +288,7 @@ class Checker {
 
   // Applies `check(entry, place)` to each entry of a list.
   template <class Check>
-  Expected<void> each(const json& value, const std::string& place, Check check) const {
+  Expected<void> each(json& value, const std::string& place, Check check) const {
     if (!value.is_array()) return wrong(place, "must be a list");
     for (std::size_t i = 0; i < value.size(); ++i) {
       const std::string entry_place = place + "[" + std::to_string(i) + "]";
@@ -285,9 +298,9 @@ class Checker {
   }
 
   template <class Check>
-  Expected<void> each_member(const json& value, const std::string& place, Check check) const {
+  Expected<void> each_member(json& value, const std::string& place, Check check) const {
     if (!value.is_object()) return wrong(place, "must be an object");
-    for (const auto& [key, member] : value.items()) {
+    for (auto& [key, member] : value.items()) {
       if (Expected<void> fine = check(member, place + "." + key); !fine) return fine;
     }
     return {};
@@ -312,8 +325,18 @@ class Checker {
                             " to " + text_of(rule.high));
   }
 
-  Expected<void> check_numbers(const json& value, const Rule& rule,
-                               const std::string& place) const {
+  /// Brings a number into its range.
+  Expected<void> check_factor(json& value, const Rule& rule, const std::string& place) {
+    if (!value.is_number()) return wrong(place, "must be a number");
+    const double number = value.get<double>();
+    const double within = std::clamp(number, rule.low, rule.high);
+    if (within == number) return {};
+    repaired.push_back(place);
+    value = within;
+    return {};
+  }
+
+  Expected<void> check_numbers(json& value, const Rule& rule, const std::string& place) const {
     const double largest = rule.low != 0.0 ? rule.low : kAnyFloat;
     const Rule any = {"", "", Kind::number, "", -largest, largest, false};
     const auto length = static_cast<std::size_t>(rule.high);
@@ -324,7 +347,7 @@ class Checker {
                 [&](const json& v, const std::string& p) { return check_number(v, any, p); });
   }
 
-  Expected<void> check_value(const json& value, const Rule& rule, const std::string& place) const {
+  Expected<void> check_value(json& value, const Rule& rule, const std::string& place) {
     const auto as_index = [&](const json& v, const std::string& p) {
       return check_index(v, rule.of, p);
     };
@@ -340,9 +363,8 @@ class Checker {
       case Kind::object:
         return check_object(value, rule.of, place);
       case Kind::list:
-        return each(value, place, [&](const json& v, const std::string& p) {
-          return check_object(v, rule.of, p);
-        });
+        return each(value, place,
+                    [&](json& v, const std::string& p) { return check_object(v, rule.of, p); });
       case Kind::index:
         return as_index(value, place);
       case Kind::indices:
@@ -350,15 +372,18 @@ class Checker {
       case Kind::attributes:
         return each_member(value, place, as_index);
       case Kind::attribute_sets:
-        return each(value, place, [&](const json& v, const std::string& p) {
-          return each_member(v, p, as_index);
-        });
+        return each(value, place,
+                    [&](json& v, const std::string& p) { return each_member(v, p, as_index); });
       case Kind::ids:
         return each_member(value, place, as_whole);
       case Kind::whole:
         return as_whole(value, place);
       case Kind::number:
         return check_number(value, rule, place);
+      case Kind::factor:
+        return check_factor(value, rule, place);
+      case Kind::reach:
+        break;  // check_object() removes members
       case Kind::numbers:
         return check_numbers(value, rule, place);
       case Kind::string:
@@ -378,8 +403,11 @@ class Checker {
 
 }  // namespace
 
-Expected<void> check_schema(const json& root, const std::string& file) {
-  return Checker(root, file).check_object(root, "root", "");
+Expected<std::vector<std::string>> check_schema(json& root, const std::string& file) {
+  Checker checker(root, file);
+  const Expected<void> fine = checker.check_object(root, "root", "");
+  if (!fine) return tl::unexpected(fine.error());
+  return std::move(checker.repaired);
 }
 
 }  // namespace lambent::gltf
