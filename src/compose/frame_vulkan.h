@@ -182,7 +182,7 @@ struct FrameMemory {
   vulkan::Buffer path_hits, path_points, path_surfaces, path_diffuse, path_specular;
   vulkan::Buffer path_queries, path_answers;
   vulkan::Buffer path_drawn, path_drawn_squares, path_drawn_specular, coat_distances;
-  vulkan::Buffer path_sky, path_sky_in_clearcoats;
+  vulkan::Buffer path_sky;
   // Fog: its froxels, and its effect on a band's pixels
   FroxelFog fog;
   vulkan::Buffer media, froxels, fog_record, pixel_fog;

@@ -149,16 +149,17 @@ LAMBENT_FN vec3 coat_direction(vec3 normal_ws, vec3 to_viewer_ws, float alpha) {
 }
 
 /// The mean direction of the light that a surface's coat and clearcoat reflect, each weighted by
-/// its albedo. The share of the coat's light that rays supply is left out.
-LAMBENT_FN vec3 coats_direction(Reflectance surface, float coat_share, vec3 normal_ws,
+/// its albedo. The shares of their light that rays supply are left out.
+LAMBENT_FN vec3 coats_direction(Reflectance surface, CoatShares shares, vec3 normal_ws,
                                 vec3 to_viewer_ws) {
   vec3 of_coat = coat_direction(normal_ws, to_viewer_ws, surface.alpha);
-  if (!has_clearcoat(surface.layers)) return of_coat;
+  if (!has_clearcoat(surface.layers) || shares.clearcoat >= 1.0f) return of_coat;
   vec3 of_clearcoat = coat_direction(clearcoat_normal_ws(surface.layers, normal_ws), to_viewer_ws,
                                      surface.layers.clearcoat_alpha);
   vec3 reflected = specular_albedo(surface, dot(normal_ws, to_viewer_ws));
-  float coat = surface.f90 > 0.0f ? (1.0f - coat_share) * luminance(reflected) : 0.0f;
-  return normalize(of_coat * coat + of_clearcoat * clearcoat_albedo(surface.layers));
+  float coat = surface.f90 > 0.0f ? (1.0f - shares.coat) * luminance(reflected) : 0.0f;
+  float clearcoat = (1.0f - shares.clearcoat) * clearcoat_albedo(surface.layers);
+  return normalize(of_coat * coat + of_clearcoat * clearcoat);
 }
 
 /// Radiance that a surface's base, under its coat, reflects of indirect irradiance.
@@ -362,14 +363,14 @@ LAMBENT_FN vec3 clearcoat_light(SurfaceLayers layers, float gi_share, vec3 mirro
   return clearcoat_albedo(layers) * mirror_irradiance * kInvPi;
 }
 
-/// The light that coat and clearcoat reflect at a path's hit. Further rays supply the share
-/// `coat_share` of the coat's light; the rest, and all light of the clearcoat, comes from the
-/// field, looked up along coats_direction().
+/// The light that coat and clearcoat reflect at a path's hit, without the shares that further rays
+/// supply. It comes from the field, looked up along coats_direction().
 LAMBENT_FN vec3 coats_light(Reflectance reflectance, float n_dot_v, float gi_share,
-                            float coat_share, vec3 mirror_irradiance) {
-  return coat_light(reflectance, n_dot_v, gi_share, vec4(0.0f, 0.0f, 0.0f, coat_share),
+                            CoatShares shares, vec3 mirror_irradiance) {
+  return coat_light(reflectance, n_dot_v, gi_share, vec4(0.0f, 0.0f, 0.0f, shares.coat),
                     mirror_irradiance) +
-         clearcoat_light(reflectance.layers, gi_share, mirror_irradiance);
+         (1.0f - shares.clearcoat) *
+             clearcoat_light(reflectance.layers, gi_share, mirror_irradiance);
 }
 
 LAMBENT_END

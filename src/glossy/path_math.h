@@ -10,30 +10,49 @@
 
 LAMBENT_BEGIN
 
-/// Share of a coat's light that further rays supply where a path hit it. `throughput` is the path's
-/// so far.
-LAMBENT_FN float further_coat_share(Reflectance surface, float n_dot_v, vec3 throughput,
-                                    uint bounce) {
-  if (bounce >= kMaxCoatBounces) return 0.0f;
+/// Shares of the light of a coat and a clearcoat that further rays supply where a path hit them.
+///
+/// What glass shows is seen as if nothing were before it: there rays look for the lamps and the
+/// scenery that coats mirror, however little they reflect, and for those that clearcoats do. So
+/// they do for glass, wherever a path hits it: the path splits, or goes one way at random, which
+/// takes no ray more.
+LAMBENT_FN CoatShares further_coat_shares(Transmission through, Reflectance surface, float n_dot_v,
+                                          CoatPath path, uint bounce) {
+  CoatShares shares = {0.0f, 0.0f};
+  if (path.stage == kStageThroughGlass || is_transmissive(through)) {
+    if (bounce >= kMaxPathVertices) return shares;
+    shares.coat = traced_coat_share(surface);
+    if (!is_transmissive(through) && has_clearcoat(surface.layers)) {
+      shares.clearcoat = traced_coat_share(clearcoat_alone(surface.layers));
+    }
+    return shares;
+  }
+  if (bounce >= kMaxCoatBounces) return shares;
   float share = traced_coat_share(surface);
-  if (share <= 0.0f) return 0.0f;
-  vec3 carried = throughput * specular_albedo(surface, n_dot_v) * share;
-  return max(carried.x, max(carried.y, carried.z)) < kMinThroughput ? 0.0f : share;
+  if (share <= 0.0f) return shares;
+  vec3 carried = path.throughput * specular_albedo(surface, n_dot_v) * share;
+  if (max(carried.x, max(carried.y, carried.z)) >= kMinThroughput) shares.coat = share;
+  return shares;
 }
 
-/// Prepares a coat that a path hit, and returns the share of its light that further rays supply.
-/// Widens its lobe to the widest on the path, which blurs it as much, and to at least
-/// kLeastEndAlpha where no further ray looks for the lamps that it mirrors; none does for a
-/// clearcoat's. Narrower lobes would be hit by hardly any ray, and would then be a bright speck.
+/// Prepares the coats of a surface that a path hit, and returns the shares of their light that
+/// further rays supply. Widens their lobes to the widest on the path, which blurs them as much, and
+/// to at least kLeastEndAlpha where no further ray looks for the lamps that they mirror. Narrower
+/// lobes would be hit by hardly any ray, and would then be a bright speck.
 /// Kaplanyan and Dachsbacher, "Path Space Regularization for Holistic and Robust Light Transport",
 /// Eurographics 2013.
-LAMBENT_FN float regularize_lobe(float n_dot_v, float gi_share, uint bounce,
-                                 LAMBENT_INOUT(Reflectance) coat, CoatPath path) {
+LAMBENT_FN CoatShares regularize_lobes(float n_dot_v, float gi_share, uint bounce,
+                                       Transmission through, LAMBENT_INOUT(Reflectance) coat,
+                                       CoatPath path) {
   coat.alpha = max(coat.alpha, path.alpha);
-  float share = gi_share > 0.0f ? further_coat_share(coat, n_dot_v, path.throughput, bounce) : 0.0f;
-  if (share <= 0.0f) coat.alpha = max(coat.alpha, kLeastEndAlpha);
-  coat.layers.clearcoat_alpha = max(coat.layers.clearcoat_alpha, max(path.alpha, kLeastEndAlpha));
-  return share;
+  coat.layers.clearcoat_alpha = max(coat.layers.clearcoat_alpha, path.alpha);
+  CoatShares shares = {0.0f, 0.0f};
+  if (gi_share > 0.0f) shares = further_coat_shares(through, coat, n_dot_v, path, bounce);
+  if (shares.coat <= 0.0f) coat.alpha = max(coat.alpha, kLeastEndAlpha);
+  if (shares.clearcoat <= 0.0f) {
+    coat.layers.clearcoat_alpha = max(coat.layers.clearcoat_alpha, kLeastEndAlpha);
+  }
+  return shares;
 }
 
 /// CoatRay::distance after a path's hit, which lies `further` from the one before [m]: the distance
@@ -136,21 +155,49 @@ struct NextRay {
   float side;  ///< 1: it starts on the side of the surface that the path came from; -1: behind it.
 };
 
-/// Continues a path by reflection from a coat, where further rays supply the share `coat_share` of
-/// its light. Sets the path's pdf to 0 where it ends.
-LAMBENT_FN NextRay extend_by_reflection(Reflectance coat, float coat_share, vec3 normal_ws,
+/// Probability with which a path goes on from the clearcoat of a surface rather than from its coat:
+/// the clearcoat's part of what further rays are to find.
+LAMBENT_FN float clearcoat_chance(Reflectance surface, CoatShares shares, float n_dot_v) {
+  if (shares.clearcoat <= 0.0f) return 0.0f;
+  if (shares.coat <= 0.0f) return 1.0f;
+  float clearcoat = shares.clearcoat * clearcoat_albedo(surface.layers);
+  float coat = shares.coat * luminance(specular_albedo(surface, n_dot_v));
+  return clearcoat > 0.0f ? clearcoat / (clearcoat + coat) : 0.0f;
+}
+
+/// Continues a path by reflection from a coat or, at random, from the clearcoat on it, where
+/// further rays supply the shares `shares` of their light. Sets the path's pdf, which is that of
+/// the lobe that was chosen, to 0 where it ends: samples of lights are weighed against each lobe by
+/// itself.
+LAMBENT_FN NextRay extend_by_reflection(Reflectance coat, CoatShares shares, vec3 normal_ws,
                                         vec3 geometric_normal_ws, vec3 to_viewer_ws, vec2 u,
                                         LAMBENT_INOUT(CoatPath) path) {
   NextRay next = {normal_ws, 1.0f};
   path.pdf = 0.0f;
-  if (coat_share <= 0.0f) return next;
-  CoatDraw drawn = draw_coat_ray(coat, make_frame(normal_ws), to_viewer_ws, u);
-  if (dot(geometric_normal_ws, drawn.direction_ws) <= 0.0f) return next;
-  path.throughput *= coat_share * drawn.weight;
+  float chance = clearcoat_chance(coat, shares, dot(normal_ws, to_viewer_ws));
+  bool from_clearcoat = u.x < chance;
+  vec3 lobe_normal_ws = normal_ws;
+  float share = shares.coat;
+  if (from_clearcoat) {
+    u.x /= chance;
+    share = shares.clearcoat / chance;
+    lobe_normal_ws = clearcoat_normal_ws(coat.layers, normal_ws);
+    coat = clearcoat_alone(coat.layers);
+  } else if (chance > 0.0f) {
+    u.x = min((u.x - chance) / (1.0f - chance), kLargestUniform);
+    share /= 1.0f - chance;
+  }
+  if (share <= 0.0f) return next;
+  CoatDraw drawn = draw_coat_ray(coat, make_frame(lobe_normal_ws), to_viewer_ws, u);
+  if (drawn.pdf <= 0.0f || dot(geometric_normal_ws, drawn.direction_ws) <= 0.0f) return next;
+  path.throughput *= share * drawn.weight;
   path.pdf = drawn.pdf;
   path.alpha = coat.alpha;
-  if (path.stage < kStageBehindGlass) path.stage = kStageOther;
-  if (path.stage == kStageBehindGlass) path.stage = kStageCoatBehindGlass;
+  // Only the coat's light is filtered over the coat's lobe
+  bool filtered = path.stage == kStageBehindGlass && !from_clearcoat;
+  if (path.stage <= kStageBehindGlass) {
+    path.stage = filtered ? kStageCoatBehindGlass : kStageOther;
+  }
   next.direction_ws = drawn.direction_ws;
   return next;
 }
@@ -194,7 +241,7 @@ LAMBENT_FN bool forks(CoatPath path, Transmission through, Reflectance coat, flo
 
 /// Continues a path from its hit on bounce `bounce`: through the surface, or by reflection from its
 /// coat. Where both are possible, one is drawn at random, unless the path has split there.
-LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, float coat_share, vec3 normal_ws,
+LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, CoatShares shares, vec3 normal_ws,
                          vec3 geometric_normal_ws, vec3 to_viewer_ws, uint bounce,
                          RandomStream random, LAMBENT_INOUT(CoatPath) path) {
   vec2 u = next_uniform2(random);
@@ -207,7 +254,7 @@ LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, float coat_shar
     return extend_through_glass(through, coat, normal_ws, to_viewer_ws, vec3(u, kNeverReflected),
                                 path);
   }
-  float crossing = crossing_chance(through, coat, coat_share, n_dot_v, bounce);
+  float crossing = crossing_chance(through, coat, shares.coat, n_dot_v, bounce);
   // Draw no further number where the surface transmits nothing
   if (crossing > 0.0f && (crossing >= 1.0f || next_uniform(random) < crossing)) {
     path.throughput /= crossing;
@@ -215,12 +262,11 @@ LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, float coat_shar
                                 vec3(u, next_uniform(random)), path);
   }
   if (crossing > 0.0f) path.throughput /= 1.0f - crossing;
-  return extend_by_reflection(coat, coat_share, normal_ws, geometric_normal_ws, to_viewer_ws, u,
-                              path);
+  return extend_by_reflection(coat, shares, normal_ws, geometric_normal_ws, to_viewer_ws, u, path);
 }
 
 /// Splits a path: returns the ray of the reflected branch, and marks `path` as the transmitted one.
-LAMBENT_FN NextRay go_on_reflected(Transmission through, Reflectance coat, float coat_share,
+LAMBENT_FN NextRay go_on_reflected(Transmission through, Reflectance coat, CoatShares shares,
                                    vec3 normal_ws, vec3 geometric_normal_ws, vec3 to_viewer_ws,
                                    RandomStream random, LAMBENT_INOUT(CoatPath) path,
                                    LAMBENT_INOUT(CoatPath) branch) {
@@ -229,7 +275,7 @@ LAMBENT_FN NextRay go_on_reflected(Transmission through, Reflectance coat, float
   branch.fork = kForkReflected;
   path.fork = kForkCrosses;
   if (through.kind != kLeavesVolume) {
-    return extend_by_reflection(coat, coat_share, normal_ws, geometric_normal_ws, to_viewer_ws, u,
+    return extend_by_reflection(coat, shares, normal_ws, geometric_normal_ws, to_viewer_ws, u,
                                 branch);
   }
   branch.throughput *= inner_reflection(dot(normal_ws, to_viewer_ws), through.eta);

@@ -2,6 +2,8 @@
 // A floor and its lamp, both behind glass.
 #pragma once
 
+#include <vector>
+
 #include "lambent/scene.h"
 #include "scenes/mesh_builder.h"
 #include "scenes/parts.h"
@@ -35,7 +37,7 @@ inline Scene floor_behind_a_pane(const Material& floor, float roughness, bool sl
   return scene;
 }
 
-/// Floors that have a base alone, and a coat alone.
+/// Floors that have a base alone, a coat alone, and a clearcoat on both.
 inline Material matte_floor() {
   Material floor;
   floor.lambert = true;
@@ -48,6 +50,17 @@ inline Material metal_floor() {
   floor.metallic = 1.0f;
   floor.roughness = 0.4f;
   return floor;
+}
+inline Material lacquered_floor() {
+  Material floor = matte_floor();
+  floor.lambert = false;
+  floor.roughness = 0.5f;
+  floor.clearcoat = 1.0f;
+  floor.clearcoat_roughness = 0.3f;
+  return floor;
+}
+inline std::vector<Material> floors_to_show() {
+  return {matte_floor(), metal_floor(), lacquered_floor()};
 }
 
 }  // namespace lambent::test

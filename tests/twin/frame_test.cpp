@@ -313,12 +313,12 @@ TEST_F(Frame, WithFilteredReflectionsIsTheSame) {
   }
 }
 
-// What panes show: of matte and glossy floors, sharp and blurred, whole and in part.
+// What panes show: of matte, glossy and lacquered floors, sharp and blurred, whole and in part.
 TEST_F(Frame, WithFilteredLightBehindGlassIsTheSame) {
   Job job = small("");
   job.frame.denoise = true;
   for (const float roughness : {0.0f, 0.4f}) {
-    for (const Material& floor : {test::matte_floor(), test::metal_floor()}) {
+    for (const Material& floor : test::floors_to_show()) {
       for (const bool slab : {false, true}) {
         Scene scene = test::floor_behind_a_pane(floor, roughness, slab);
         if (slab) scene.environment = test::checkered_sky();

@@ -186,8 +186,8 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
   reserve<float>(drawn, "squares of drawn light of paths", m.path_drawn_squares);
   reserve<vec3>(drawn, "drawn specular light of paths", m.path_drawn_specular);
   const bool sky_apart = keeps_behind && world_.scene().has_bright_sky();
-  reserve<vec3>(sky_apart ? paths : 0, "sky in paths", m.path_sky);
-  reserve<vec3>(sky_apart ? paths : 0, "sky in clearcoats of paths", m.path_sky_in_clearcoats);
+  // The sky that coats reflect, and then that of clearcoats
+  reserve<vec3>(sky_apart ? 2 * std::size_t{paths} : 0, "sky in paths", m.path_sky);
   reserve<QueryRecord>(2 * std::size_t{paths}, "queries of paths", m.path_queries);
   reserve<vec3>(2 * std::size_t{paths}, "answers of paths", m.path_answers);
   frame_->rays += paths;
@@ -224,14 +224,15 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
     lighting.emissive_samples = request_->settings.reflected_emissive_samples;
     lighting.salt = salt;
     lighting.seed = path_seed_;
-    m.gather_shading.reflected_light(to, stage(), met, paths, lighting,
-                                     {{m.path_diffuse.address()},
-                                      {m.path_specular.address()},
-                                      {apart ? m.path_drawn.address() : 0},
-                                      {apart ? m.path_drawn_squares.address() : 0},
-                                      {apart ? m.path_drawn_specular.address() : 0},
-                                      {sky_apart ? m.path_sky.address() : 0},
-                                      {sky_apart ? m.path_sky_in_clearcoats.address() : 0}});
+    m.gather_shading.reflected_light(
+        to, stage(), met, paths, lighting,
+        {{m.path_diffuse.address()},
+         {m.path_specular.address()},
+         {apart ? m.path_drawn.address() : 0},
+         {apart ? m.path_drawn_squares.address() : 0},
+         {apart ? m.path_drawn_specular.address() : 0},
+         {sky_apart ? m.path_sky.address() : 0},
+         {sky_apart ? m.path_sky.address() + paths * sizeof(vec3) : 0}});
     if (keeps_behind) {
       to.barrier();
       keep_behind(to, paths, from);

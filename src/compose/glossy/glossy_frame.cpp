@@ -19,9 +19,21 @@ FieldQuery query_of(const Ray& ray, const Surface& met, const vec3& direction_ws
   return {met.position_ws, direction_ws, -ray.direction, distance(met.position_ws, ray.origin)};
 }
 
+/// Shares of the light of a hit's coats that further rays supply.
+CoatShares shares_of(const GBuffer& met, std::size_t i) {
+  return {met.coat_shares[i], met.clearcoat_shares[i]};
+}
+
+/// Whether the field supplies light of a surface's coat or clearcoat.
+bool asks_for_coats(const Surface& surface, const CoatShares& shares) {
+  if (surface.gi_share <= 0.0f || has_no_coat(surface.reflectance)) return false;
+  return shares.coat < 1.0f ||
+         (has_clearcoat(surface.reflectance.layers) && shares.clearcoat < 1.0f);
+}
+
 /// Direct light, with the samples of the sky.
 vec3 direct_light(const ReflectedLight& light, std::size_t i) {
-  const vec3 sky = light.sky.empty() ? vec3(0.0f) : light.sky[i];
+  const vec3 sky = light.sky.empty() ? vec3(0.0f) : light.sky[i] + light.sky_in_clearcoats[i];
   return light.diffuse[i] + light.specular[i] + sky;
 }
 
@@ -116,6 +128,7 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
   met_.hit.resize(rays_.size());
   met_.to_viewer_ws.resize(rays_.size());
   met_.coat_shares.assign(rays_.size(), 0.0f);
+  met_.clearcoat_shares.assign(rays_.size(), 0.0f);
   parallel_chunks(rays_.size(), kCostlyPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<Ray> rays;
     std::vector<std::size_t> pixels;
@@ -153,9 +166,12 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
       meet_emitter(path, surface.emission,
                    static_cast<uint>(settings.frame.reflected_emissive_samples),
                    static_cast<uint>(settings.frame.emissive_samples), rays_[i]);
-      met_.coat_shares[i] = regularize_lobe(dot(surface.normal_ws, met_.to_viewer_ws[i]),
-                                            settings.field != nullptr ? surface.gi_share : 0.0f,
-                                            bounce, met_.surfaces[i].reflectance, path);
+      const CoatShares shares =
+          regularize_lobes(dot(surface.normal_ws, met_.to_viewer_ws[i]),
+                           settings.field != nullptr ? surface.gi_share : 0.0f, bounce,
+                           surface.transmission, met_.surfaces[i].reflectance, path);
+      met_.coat_shares[i] = shares.coat;
+      met_.clearcoat_shares[i] = shares.clearcoat;
     }
   });
   return traced;
@@ -182,9 +198,8 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
   for (std::size_t i = 0; i < met_.size(); ++i) {
     if (met_.hit[i] == 0) continue;
     const Surface& surface = met_.surfaces[i];
-    if (surface.gi_share <= 0.0f || has_no_coat(surface.reflectance)) continue;
-    if (met_.coat_shares[i] >= 1.0f && !has_clearcoat(surface.reflectance.layers)) continue;
-    ask(i, coats_direction(surface.reflectance, met_.coat_shares[i], surface.normal_ws,
+    if (!asks_for_coats(surface, shares_of(met_, i))) continue;
+    ask(i, coats_direction(surface.reflectance, shares_of(met_, i), surface.normal_ws,
                            met_.to_viewer_ws[i]));
   }
   answers_.assign(queries_.size(), vec3(0.0f));
@@ -197,7 +212,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
     const vec3 light = k < of_bases ? reflected_indirect(surface.reflectance, n_dot_v,
                                                          surface.gi_share * answers_[k])
                                     : coats_light(surface.reflectance, n_dot_v, surface.gi_share,
-                                                  met_.coat_shares[i], answers_[k]);
+                                                  shares_of(met_, i), answers_[k]);
     add_radiance(paths_.paths[i], light, rays_[i]);
   }
   const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);
@@ -212,7 +227,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
       const RandomStream random = make_random_stream(
           first_index + static_cast<uint>(i), coat_salt(salt_, bounce), ~settings.frame.seed);
       const NextRay next =
-          go_on(surface.transmission, surface.reflectance, met_.coat_shares[i], surface.normal_ws,
+          go_on(surface.transmission, surface.reflectance, shares_of(met_, i), surface.normal_ws,
                 surface.geometric_normal_ws, met_.to_viewer_ws[i], bounce, random, path);
       if (path.pdf <= 0.0f) continue;
       paths_.next[i] = ray_from(surface, next);

@@ -46,7 +46,8 @@ struct KeepBehindArguments {
   CoatPathArray paths;
   UintArray pixels;
   Vec3Array diffuse;  ///< Light is added here.
-  Vec3Array sky;      ///< What coats reflect of it; read where `has_sky` is 1.
+  Vec3Array sky;      ///< What coats reflect of it, and, from `count` on, what clearcoats do; read
+                      ///< where `has_sky` is 1.
   Vec3Array drawn;    ///< Light of emitters; read where `draws` is above 0.
   Vec3Array drawn_specular;
   FloatArray drawn_squares;

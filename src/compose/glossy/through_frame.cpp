@@ -91,9 +91,10 @@ void Glossy::split_paths(const GlossySettings& settings, std::uint32_t bounce) {
       const RandomStream random = make_random_stream(
           first_index + static_cast<uint>(i), coat_salt(salt_, bounce), ~settings.frame.seed);
       const NextRay next =
-          go_on_reflected(surface.transmission, surface.reflectance, met_.coat_shares[i],
-                          surface.normal_ws, surface.geometric_normal_ws, met_.to_viewer_ws[i],
-                          random, paths_.paths[i], forks_.paths[i]);
+          go_on_reflected(surface.transmission, surface.reflectance,
+                          {met_.coat_shares[i], met_.clearcoat_shares[i]}, surface.normal_ws,
+                          surface.geometric_normal_ws, met_.to_viewer_ws[i], random,
+                          paths_.paths[i], forks_.paths[i]);
       forks_.next[i] = ray_from(surface, next);
       forks_.cones[i] = reflected_cone(paths_.cones[i], forks_.paths[i].pdf);
     }

@@ -34,6 +34,7 @@ void main() {
   PixelSurfaceRecord surface = args.surfaces.at[k];
   if ((surface.flags & kSurfaceMissed) != 0u) return;
   CoatPath path = args.paths.at[k];
+  if (args.has_sky != 0u) args.diffuse.at[k] += args.sky.at[args.count + k];
   if (!reaches_opaque_surface(path, surface.transmission)) {
     if (args.has_sky != 0u) args.diffuse.at[k] += args.sky.at[k];
     if (args.draws > 0u) args.diffuse.at[k] += args.drawn.at[k] + args.drawn_specular.at[k];

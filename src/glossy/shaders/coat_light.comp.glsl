@@ -18,18 +18,18 @@ void main() {
   LitPointRecord point = args.points.at[k];
   CoatPath path = args.paths.at[k];
   float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
-  vec3 light = reflected_indirect(surface.reflectance, n_dot_v,
-                                  surface.gi_share * args.field.at[2u * k]) +
-               coats_light(surface.reflectance, n_dot_v, surface.gi_share, surface.coat_share,
-                           args.field.at[2u * k + 1u]) +
-               args.diffuse.at[k] + args.specular.at[k];
+  CoatShares shares = CoatShares(surface.coat_share, surface.clearcoat_share);
+  vec3 light =
+      reflected_indirect(surface.reflectance, n_dot_v, surface.gi_share * args.field.at[2u * k]) +
+      coats_light(surface.reflectance, n_dot_v, surface.gi_share, shares,
+                  args.field.at[2u * k + 1u]) +
+      args.diffuse.at[k] + args.specular.at[k];
   CoatRay ray = args.coat_rays.at[i];
   add_radiance(path, light, ray);
   args.coat_rays.at[i] = ray;
 
   RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
-  NextRay next = go_on(surface.transmission, surface.reflectance, surface.coat_share,
-                       point.normal_ws, point.geometric_normal_ws, surface.to_viewer_ws,
-                       args.bounce, random, path);
+  NextRay next = go_on(surface.transmission, surface.reflectance, shares, point.normal_ws,
+                       point.geometric_normal_ws, surface.to_viewer_ws, args.bounce, random, path);
   if (path.pdf > 0.0f) append_path(args.next, i, path, surface.cone, point, next);
 }

@@ -24,9 +24,10 @@ void main() {
   uint i = args.pixels.at[k];
   RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
   CoatPath branch;
-  NextRay next = go_on_reflected(surface.transmission, surface.reflectance, surface.coat_share,
-                                 point.normal_ws, point.geometric_normal_ws, surface.to_viewer_ws,
-                                 random, path, branch);
+  NextRay next =
+      go_on_reflected(surface.transmission, surface.reflectance,
+                      CoatShares(surface.coat_share, surface.clearcoat_share), point.normal_ws,
+                      point.geometric_normal_ws, surface.to_viewer_ws, random, path, branch);
   args.paths.at[k].fork = path.fork;
   if (branch.pdf > 0.0f) append_path(args.reflected, i, branch, surface.cone, point, next);
 }
