@@ -112,6 +112,9 @@ int columns_for(const Scene& dome) {
 }  // namespace
 
 std::optional<Scene> take_sky_dome(Scene& scene) {
+  const auto in_scene = [&](const Instance& instance) { return may_be_sky(scene, instance); };
+  // Bounds take long where scenes are large
+  if (std::none_of(scene.instances.begin(), scene.instances.end(), in_scene)) return std::nullopt;
   std::vector<Bounds> boxes;
   Bounds all;
   for (const Instance& instance : scene.instances) {
