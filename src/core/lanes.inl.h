@@ -21,6 +21,9 @@ LAMBENT_FORCE_INLINE Lanes min(const Lanes& a, const Lanes& b) {
 LAMBENT_FORCE_INLINE Lanes max(const Lanes& a, const Lanes& b) {
   return a > b ? a : b;
 }
+LAMBENT_FORCE_INLINE Lanes select(const LaneInts& condition, const Lanes& yes, float no) {
+  return condition ? yes : no;
+}
 
 /// pack_upper_halves (shared/packing.h), for lanes.
 LAMBENT_FORCE_INLINE void pack_halves(Lanes& word, const Lanes& upper, const Lanes& lower) {

@@ -76,11 +76,14 @@ LAMBENT_FN float seen_distance(CoatRay ray) {
   return ray.pdf > 0.0f ? ray.distance : -1.0f;
 }
 
+/// Whether a ray of this distance left the scene.
+LAMBENT_FN bool left_scene(float distance) {
+  return floatBitsToUint(distance) == kMissedDistanceBits;
+}
+
 /// One over the distance to a ray's hit [1/m]; 0 where it left the scene.
 LAMBENT_FN float inverse_seen_distance(float distance) {
-  return floatBitsToUint(distance) == kMissedDistanceBits
-             ? 0.0f
-             : 1.0f / max(distance, kLeastSeenDistance);
+  return left_scene(distance) ? 0.0f : 1.0f / max(distance, kLeastSeenDistance);
 }
 
 LAMBENT_END

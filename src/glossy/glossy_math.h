@@ -104,22 +104,36 @@ LAMBENT_FN vec2 coat_uniforms(uvec2 pixel, uint sample_index, uint rows, uint se
   return pixel_point(pixel.x, pixel.y / rows, 0u, 1u, sample_index, seed ^ kCoatSalt);
 }
 
+/// For lanes, the same of all of them.
+LAMBENT_FN bool all_zero(float x) {
+  return x == 0.0f;
+}
+
+#define Real float
+#define Real3 vec3
+#define LAMBENT_REAL_FN LAMBENT_FN
+#include "glossy/coat_sums.inl.h"
+#undef Real
+#undef Real3
+#undef LAMBENT_REAL_FN
+
+/// The lobe of a coat of this GGX width.
+LAMBENT_FN CoatLobe make_coat_lobe(vec3 position_ws, vec3 geometric_normal_ws, vec3 normal_ws,
+                                   vec3 to_viewer_ws, float alpha) {
+  float n_dot_v = dot(normal_ws, to_viewer_ws);
+  float lambda = ggx_lambda(n_dot_v, alpha);
+  float pdf_scale = n_dot_v > 0.0f ? 1.0f / (4.0f * n_dot_v * (1.0f + lambda)) : 0.0f;
+  CoatLobe lobe = {position_ws,   geometric_normal_ws, normal_ws, to_viewer_ws,
+                   alpha * alpha, pdf_scale,           lambda};
+  return lobe;
+}
+
 /// A direction drawn from a coat's lobe.
 struct CoatDraw {
   vec3 direction_ws;
   float pdf;    ///< [1/sr]; 0: the direction is below the surface.
   vec3 weight;  ///< BRDF times cosine over pdf.
 };
-
-/// Walter et al. 2007, Eq. 33, as a function of the half vector. Exact for the narrowest lobes,
-/// too, for which the cosine alone rounds to 1.
-LAMBENT_FN float ggx_density(vec3 normal, vec3 h, float alpha) {
-  float a2 = alpha * alpha;
-  float cosine = dot(normal, h);
-  vec3 sine = cross(normal, h);
-  float d = cosine * cosine * a2 + dot(sine, sine);
-  return a2 * kInvPi / (d * d);
-}
 
 LAMBENT_FN CoatDraw draw_coat_ray(Reflectance surface, Frame frame, vec3 to_viewer_ws, vec2 u) {
   CoatDraw drawn = {vec3(0.0f, 0.0f, 1.0f), 0.0f, vec3(0.0f)};
@@ -131,8 +145,8 @@ LAMBENT_FN CoatDraw draw_coat_ray(Reflectance surface, Frame frame, vec3 to_view
   float lambda_v = ggx_lambda(v.z, surface.alpha);
   float lambda_l = ggx_lambda(l.z, surface.alpha);
   drawn.direction_ws = normalize(to_world(frame, l));
-  drawn.pdf =
-      ggx_density(vec3(0.0f, 0.0f, 1.0f), h, surface.alpha) / (4.0f * v.z * (1.0f + lambda_v));
+  drawn.pdf = ggx_density(vec3(0.0f, 0.0f, 1.0f), h, surface.alpha * surface.alpha) /
+              (4.0f * v.z * (1.0f + lambda_v));
   drawn.weight = fresnel(surface, dot(v, h)) * ((1.0f + lambda_v) / (1.0f + lambda_v + lambda_l));
   if (has_layers(surface.layers)) drawn.weight *= coat_share_under_layers(surface.layers, v, l);
   return drawn;
@@ -175,41 +189,6 @@ LAMBENT_FN vec3 reflected_glossy(Reflectance reflectance, float n_dot_v, vec3 mi
   return specular_albedo(reflectance, n_dot_v) * mirror_irradiance * kInvPi;
 }
 
-/// The specular lobe of a pixel: its place, its frame and its width.
-struct CoatLobe {
-  vec3 position_ws;
-  vec3 geometric_normal_ws;
-  vec3 normal_ws;
-  vec3 to_viewer_ws;
-  float alpha;
-};
-
-/// A lobe's value for a direction of light, and the density with which it draws that direction.
-struct LobeValue {
-  float value;    ///< BRDF times cosine over the Fresnel term [1/sr]; 0 below the surface.
-  float pdf;      ///< [1/sr]
-  float v_dot_h;  ///< Cosine between the viewer and the half vector.
-};
-
-LAMBENT_FN LobeValue coat_lobe(CoatLobe of, vec3 direction_ws) {
-  LobeValue none = {0.0f, 0.0f, 0.0f};
-  float n_dot_v = dot(of.normal_ws, of.to_viewer_ws);
-  float n_dot_l = dot(of.normal_ws, direction_ws);
-  if (n_dot_v <= 0.0f || n_dot_l <= 0.0f) return none;
-  vec3 h = normalize(of.to_viewer_ws + direction_ws);
-  float density = ggx_density(of.normal_ws, h, of.alpha) / (4.0f * n_dot_v);
-  float lambda_v = ggx_lambda(n_dot_v, of.alpha);
-  LobeValue lobe = {density / (1.0f + lambda_v + ggx_lambda(n_dot_l, of.alpha)),
-                    density / (1.0f + lambda_v), dot(of.to_viewer_ws, h)};
-  return lobe;
-}
-
-/// The direction from `position_ws` to the end of a ray that starts at `origin_ws`.
-LAMBENT_FN vec3 direction_to_end(vec3 position_ws, vec3 origin_ws, CoatRay ray) {
-  if (floatBitsToUint(ray.distance) == kMissedDistanceBits) return ray.direction_ws;
-  return normalize(ray.direction_ws * ray.distance + (origin_ws - position_ws));
-}
-
 LAMBENT_FN float inverse_plane_tolerance(CameraRecord camera, vec3 position_ws) {
   return 1.0f / (kPlaneTolerance * pixel_width(camera, position_ws));
 }
@@ -226,80 +205,13 @@ LAMBENT_FN Reflectance coat_under_layers(Reflectance surface, float n_dot_v) {
   return seen;
 }
 
-/// A pixel whose coat reflects the light of its own ray and of those around it.
-struct CoatReceiver {
-  CoatLobe lobe;
-  Reflectance reflectance;  ///< See coat_under_layers().
-  float inverse_tolerance;  ///< One over kPlaneTolerance pixels at its depth [1/m].
-  CoatRay own;              ///< The pixel's own ray; pdf 0 where it has none.
-  LobeValue at_own;         ///< The lobe's value for that ray.
-  vec3 mirror_ws;           ///< The mirror direction, where the lobe is about densest.
-  float mirror_pdf;         ///< The lobe's density there [1/sr].
-};
-
 /// Sets the fields that follow from a receiver's lobe and its own ray.
 LAMBENT_FN void find_lobe(LAMBENT_INOUT(CoatReceiver) at) {
   LobeValue none = {0.0f, 0.0f, 0.0f};
   at.at_own = at.own.pdf > 0.0f ? coat_lobe(at.lobe, at.own.direction_ws) : none;
   at.mirror_ws = reflect(-at.lobe.to_viewer_ws, at.lobe.normal_ws);
-  at.mirror_pdf = coat_lobe(at.lobe, at.mirror_ws).pdf;
-}
-
-/// Weighted sums over rays.
-struct CoatSums {
-  vec3 light;        ///< Reflected light, without what direct light samples, too.
-  vec3 emission;     ///< Reflected light that direct light samples, too; see CoatRay::apart.
-  float weight;      ///< Sum of the rays' weights.
-  float schlick;     ///< Sum of the weights times Schlick's (1 - v_dot_h)^5 of each ray.
-  float own_weight;  ///< Weight of the pixel's own ray.
-  float pixels;      ///< Sum of the weights of the pixels whose rays were taken.
-  float fitting;     ///< Part of `pixels` whose lobes match the receiver's.
-};
-
-/// Adds the light of a ray with a weight, given the receiver's lobe for its direction. What direct
-/// light samples, too, is also multiplied by the multiple importance sampling weight that a ray of
-/// the receiver's own lobe has: its direct light has the rest.
-LAMBENT_FN void add_light_of_ray(CoatReceiver at, LobeValue lobe, vec3 direction_ws, CoatRay ray,
-                                 float weight, LAMBENT_INOUT(CoatSums) sums) {
-  if (dot(at.lobe.geometric_normal_ws, direction_ws) <= 0.0f) return;
-  vec3 reflected = weight * fresnel(at.reflectance, lobe.v_dot_h);
-  sums.light += reflected * ray.radiance;
-  sums.emission += reflected * (found_light_weight(lobe.pdf, ray.apart_density) * ray.apart);
-}
-
-/// Adds the light of a neighbour's ray, and the weight of the receiver's own ray beside it.
-///
-/// A ray's end is seen from both pixels: both lobes could have drawn it. The receiver's one ray is
-/// shared out among all neighbours, and each pair has the weights of the balance heuristic, which
-/// are bounded (pairwise multiple importance sampling: Bitterli, "Correlations and Reuse for Fast
-/// and Accurate Physically Based Light Transport", 2022, ch. 9). Lobes that hardly overlap
-/// therefore hardly affect each other.
-LAMBENT_FN void add_coat_ray(CoatReceiver at, CoatLobe from, CoatRay ray, float weight,
-                             LAMBENT_INOUT(CoatSums) sums) {
-  float similar =
-      relit_bilateral_weight(from.position_ws - at.lobe.position_ws, at.lobe.geometric_normal_ws,
-                             from.geometric_normal_ws, at.inverse_tolerance);
-  float pixel = weight * similar;
-  if (pixel < kLeastPixelWeight) return;
-  sums.pixels += pixel;
-  if (at.mirror_pdf > 0.0f) {
-    sums.fitting += pixel * min(coat_lobe(from, at.mirror_ws).pdf / at.mirror_pdf, 1.0f);
-  }
-  if (at.own.pdf > 0.0f) {
-    LobeValue beside =
-        coat_lobe(from, direction_to_end(from.position_ws, at.lobe.position_ws, at.own));
-    sums.own_weight +=
-        pixel * kOwnShare * at.at_own.value / (beside.pdf + kOwnShare * at.at_own.pdf);
-  }
-  if (ray.pdf < 0.0f) return;
-  vec3 direction = direction_to_end(at.lobe.position_ws, from.position_ws, ray);
-  LobeValue lobe = coat_lobe(at.lobe, direction);
-  if (lobe.value <= 0.0f) return;
-  float w = at.own.pdf != 0.0f ? lobe.value / (ray.pdf + kOwnShare * lobe.pdf)
-                               : min(lobe.value / ray.pdf, kMaxReuseWeight);
-  sums.weight += pixel * w;
-  sums.schlick += pixel * w * schlick_power(lobe.v_dot_h);
-  add_light_of_ray(at, lobe, direction, ray, pixel * w, sums);
+  float mirror_pdf = coat_lobe(at.lobe, at.mirror_ws).pdf;
+  at.inverse_mirror_pdf = mirror_pdf > 0.0f ? 1.0f / mirror_pdf : 0.0f;
 }
 
 /// Radiance that the receiver reflects, estimated from its own ray alone.

@@ -10,15 +10,16 @@
 
 namespace lambent {
 
-/// Numbers of a pixel that its neighbours read, one plane each; vectors are three planes.
+/// CoatLobe and CoatRay of a pixel, which its neighbours read: a plane for each number, three for a
+/// vector.
 enum CoatPlane : int {
   kLobePosition = 0,
   kLobeGeometricNormal = 3,
   kLobeNormal = 6,
   kLobeViewer = 9,
   kLobeSquareAlpha = 12,
-  kLobePdfScale = 13,  ///< Factor from the half vector's density to the pdf; 0: seen from below.
-  kLobeLambda = 14,    ///< Smith's lambda towards the viewer.
+  kLobePdfScale = 13,
+  kLobeLambda = 14,
   kRayDirection = 15,
   kRayDistance = 18,
   kRayPdf = 19,
@@ -28,17 +29,17 @@ enum CoatPlane : int {
   kCoatPlanes = 27
 };
 
-/// Further numbers of a pixel that receives the light of rays.
+/// Further numbers of a CoatReceiver.
 enum ReceiverPlane : int {
   kReceives = 0,  ///< 1: the pixel receives light, and its sums are computed.
   kOwnValue = 1,  ///< CoatReceiver::at_own
   kOwnLobePdf = 2,
   kMirror = 3,
-  kInverseMirrorPdf = 6,  ///< 0 where there is no lobe.
-  kF0 = 7,                ///< fresnel() at normal incidence.
-  kF90 = 10,              ///< fresnel() at grazing incidence.
-  kInverseTolerance = 13,
-  kReceiverPlanes = 14
+  kInverseMirrorPdf = 6,
+  kF0 = 7,
+  kF90 = 10,
+  kInverseTolerance = 11,
+  kReceiverPlanes = 12
 };
 
 /// CoatSums of a pixel.

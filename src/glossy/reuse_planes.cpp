@@ -17,16 +17,13 @@ vec3 three_of(const RowPlanes& planes, int row, int plane, int x) {
 }  // namespace
 
 void set_coat(RowPlanes& coats, int row, int x, const CoatLobe& lobe, const CoatRay& ray) {
-  const float n_dot_v = dot(lobe.normal_ws, lobe.to_viewer_ws);
-  const float lambda = ggx_lambda(n_dot_v, lobe.alpha);
   put(coats, row, kLobePosition, x, lobe.position_ws);
   put(coats, row, kLobeGeometricNormal, x, lobe.geometric_normal_ws);
   put(coats, row, kLobeNormal, x, lobe.normal_ws);
   put(coats, row, kLobeViewer, x, lobe.to_viewer_ws);
-  put(coats, row, kLobeSquareAlpha, x, lobe.alpha * lobe.alpha);
-  put(coats, row, kLobePdfScale, x,
-      n_dot_v > 0.0f ? 1.0f / (4.0f * n_dot_v * (1.0f + lambda)) : 0.0f);
-  put(coats, row, kLobeLambda, x, lambda);
+  put(coats, row, kLobeSquareAlpha, x, lobe.squared_alpha);
+  put(coats, row, kLobePdfScale, x, lobe.pdf_scale);
+  put(coats, row, kLobeLambda, x, lobe.lambda);
   put(coats, row, kRayDirection, x, ray.direction_ws);
   put(coats, row, kRayDistance, x, ray.distance);
   put(coats, row, kRayPdf, x, ray.pdf);
@@ -44,9 +41,9 @@ void set_receiver(RowPlanes& receivers, int row, int x, const CoatReceiver& at) 
   put(receivers, row, kOwnValue, x, at.at_own.value);
   put(receivers, row, kOwnLobePdf, x, at.at_own.pdf);
   put(receivers, row, kMirror, x, at.mirror_ws);
-  put(receivers, row, kInverseMirrorPdf, x, at.mirror_pdf > 0.0f ? 1.0f / at.mirror_pdf : 0.0f);
-  put(receivers, row, kF0, x, fresnel(at.reflectance, 1.0f));
-  put(receivers, row, kF90, x, fresnel(at.reflectance, 0.0f));
+  put(receivers, row, kInverseMirrorPdf, x, at.inverse_mirror_pdf);
+  put(receivers, row, kF0, x, at.reflectance.f0);
+  put(receivers, row, kF90, x, at.reflectance.f90);
   put(receivers, row, kInverseTolerance, x, at.inverse_tolerance);
 }
 

@@ -41,13 +41,6 @@ LAMBENT_FN float traced_coat_share(Reflectance surface) {
   return t * t * (3.0f - 2.0f * t);
 }
 
-/// Weight of light that a coat's ray found, drawn with density `pdf`, where samples of lights find
-/// it with `density`, that of one times their number [1/sr]. The power heuristic (Veach 1997,
-/// sec. 9.2): sums remain unbiased for any densities.
-LAMBENT_FN float found_light_weight(float pdf, float density) {
-  return pdf > 0.0f ? mis_power_weight(pdf, density) : 0.0f;
-}
-
 /// Density with which `emitter_samples` samples of emitters are taken to find one [1/sr].
 LAMBENT_FN float emitter_density(uint emitter_samples) {
   return kEmitterDensity * float(emitter_samples);

@@ -22,9 +22,7 @@ struct Reflectance {
 
 /// Schlick 1994: the share reflected by the coat at the angle between direction and half vector.
 LAMBENT_FN vec3 fresnel(Reflectance surface, float v_dot_h) {
-  float m = clamp(1.0f - v_dot_h, 0.0f, 1.0f);
-  float m5 = m * m * m * m * m;
-  return surface.f0 + (vec3(surface.f90) - surface.f0) * m5;
+  return schlick_reflectance(surface.f0, surface.f90, schlick_power(v_dot_h));
 }
 
 /// BRDF times cos(theta_l) in two parts: base and sheen, coat and clearcoat.

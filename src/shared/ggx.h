@@ -21,11 +21,17 @@ LAMBENT_FN float ggx_distribution(float n_dot_h, float alpha) {
   return a2 * kInvPi / (d * d);
 }
 
+#define Real float
+#define Real3 vec3
+#define LAMBENT_REAL_FN LAMBENT_FN
+#include "shared/microfacet.inl.h"
+#undef Real
+#undef Real3
+#undef LAMBENT_REAL_FN
+
 /// Smith's Lambda for GGX, from the cosine to the normal.
 LAMBENT_FN float ggx_lambda(float cos_theta, float alpha) {
-  float c2 = cos_theta * cos_theta;
-  float tan2 = max(0.0f, 1.0f - c2) / max(c2, 1e-12f);
-  return 0.5f * (sqrt(1.0f + alpha * alpha * tan2) - 1.0f);
+  return smith_lambda(cos_theta, alpha * alpha);
 }
 
 /// A half vector seen from `to_viewer`. Heitz 2018, listing 1.

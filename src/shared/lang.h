@@ -127,5 +127,14 @@ LAMBENT_FN float infinity() {
   return uintBitsToFloat(0x7F800000u);
 }
 
+// In place of ?: in formulas that are also compiled for lanes, each of which has a condition of its
+// own. Both values are computed; the one that is not selected may be infinite or not a number.
+LAMBENT_FN float select(bool condition, float yes, float no) {
+  return condition ? yes : no;
+}
+LAMBENT_FN vec3 select(bool condition, vec3 yes, vec3 no) {
+  return condition ? yes : no;
+}
+
 LAMBENT_END
 #endif

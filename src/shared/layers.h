@@ -51,11 +51,6 @@ LAMBENT_FN float clearcoat_fresnel(float schlick) {
   return kClearcoatF0 + (1.0f - kClearcoatF0) * schlick;
 }
 
-LAMBENT_FN float schlick_power(float cosine) {
-  float m = clamp(1.0f - cosine, 0.0f, 1.0f);
-  return m * m * m * m * m;
-}
-
 /// Transmittance of each layer by the cosine to its normal, and their means over light from a
 /// uniform sky.
 LAMBENT_FN float clearcoat_transmittance(float clearcoat, float cosine) {

@@ -5,6 +5,7 @@
 //   Real             float, or lanes of them with the same operators
 //   LAMBENT_REAL_FN  before a function
 //   Real min(Real, Real), Real max(Real, Real)
+//   Real select(condition, Real yes, Real no)   see lang.h
 
 /// relit_bilateral_weight() for normals with this cosine between them, and a distance from the
 /// pixel's plane of `beyond` times the tolerance.
@@ -13,7 +14,7 @@ LAMBENT_REAL_FN Real relit_weight(Real cosine, Real beyond) {
   Real fourth = square * square;
   Real near = 1.0f - beyond * beyond;
   Real weight = (fourth * fourth) * (fourth * fourth) * near;
-  return min(cosine, near) > 0.0f ? weight : 0.0f;
+  return select(min(cosine, near) > 0.0f, weight, 0.0f);
 }
 
 /// The factor by which reorientation() scales a direction, given the pixel's luminance, the cosine
@@ -21,7 +22,7 @@ LAMBENT_REAL_FN Real relit_weight(Real cosine, Real beyond) {
 LAMBENT_REAL_FN Real direction_scale(Real light, Real across, Real direction_length) {
   Real bound = max(across, direction_length * kLeastDirectedCosine);
   Real scale = light / bound;
-  return bound > light * kLeastDirectedShare ? scale : 0.0f;
+  return select(bound > light * kLeastDirectedShare, scale, 0.0f);
 }
 
 /// What reorientation() adds along the normal.
@@ -32,5 +33,5 @@ LAMBENT_REAL_FN Real reorientation_along_normal(Real light, Real across, Real sc
 /// reoriented_fraction(), given the product of mean R and normal.
 LAMBENT_REAL_FN Real reoriented_share(Real reoriented, Real light) {
   Real fraction = reoriented / light + kHorizonLight;
-  return min(fraction, light) > 0.0f ? fraction : 0.0f;
+  return select(min(fraction, light) > 0.0f, fraction, 0.0f);
 }

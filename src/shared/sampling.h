@@ -104,12 +104,11 @@ LAMBENT_FN mat3 sample_uniform_rotation(vec3 u) {
   return mat3(2.0f * dot(v, c0) * v - c0, 2.0f * dot(v, c1) * v - c1, 2.0f * dot(v, c2) * v - c2);
 }
 
-/// Weight of a sample of one strategy against another's, power heuristic with exponent 2.
-/// Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, sec. 9.2.
-LAMBENT_FN float mis_power_weight(float pdf, float other_pdf) {
-  float ratio = other_pdf / pdf;
-  return 1.0f / (1.0f + ratio * ratio);
-}
+#define Real float
+#define LAMBENT_REAL_FN LAMBENT_FN
+#include "shared/mis_weights.inl.h"
+#undef Real
+#undef LAMBENT_REAL_FN
 
 LAMBENT_END
 #endif

@@ -26,7 +26,7 @@ using CoatViewRef = const FlatView&;
 CoatLobe fetch_lobe(CoatViewRef view, ivec2 pixel) {
   const vec3 up(0.0f, 0.0f, 1.0f);
   const vec3 position(vec2(pixel) * kPixel, 0.0f);
-  return {position, up, up, normalize(kEye - position), view.metal.alpha};
+  return make_coat_lobe(position, up, up, normalize(kEye - position), view.metal.alpha);
 }
 CoatRay fetch_ray(CoatViewRef view, ivec2 pixel) {
   return view.rays[pixel.y * kEdge + pixel.x];

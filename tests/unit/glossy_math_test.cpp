@@ -15,7 +15,7 @@ bool is_number(const vec3& v) {
 TEST(CoatSums, OfTheSmallestWeightsAreNumbers) {
   CoatReceiver at{};
   at.lobe.normal_ws = at.lobe.geometric_normal_ws = at.lobe.to_viewer_ws = vec3(0.0f, 0.0f, 1.0f);
-  at.lobe.alpha = 0.1f;
+  at.lobe.squared_alpha = 0.01f;
   at.reflectance.f0 = vec3(0.04f);
   at.reflectance.f90 = 1.0f;
   at.own.pdf = -1.0f;

@@ -42,8 +42,8 @@ std::vector<NeighbourRow> rows_around(const GlossySettings& settings, int row, i
 
 CoatLobe lobe_of(const GBuffer& pixels, std::size_t pixel) {
   const Surface& surface = pixels.surfaces[pixel];
-  return {surface.position_ws, surface.geometric_normal_ws, surface.normal_ws,
-          pixels.to_viewer_ws[pixel], surface.reflectance.alpha};
+  return make_coat_lobe(surface.position_ws, surface.geometric_normal_ws, surface.normal_ws,
+                        pixels.to_viewer_ws[pixel], surface.reflectance.alpha);
 }
 
 /// Writes all that neighbours read into planes.

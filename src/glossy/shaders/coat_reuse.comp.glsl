@@ -18,8 +18,8 @@ CoatLobe fetch_lobe(CoatReuseArguments view, ivec2 pixel) {
   uint i = index_of(view, pixel);
   LitPointRecord point = view.points.at[i];
   PixelSurfaceRecord surface = view.surfaces.at[i];
-  return CoatLobe(point.position_ws, point.geometric_normal_ws, point.normal_ws,
-                  surface.to_viewer_ws, surface.reflectance.alpha);
+  return make_coat_lobe(point.position_ws, point.geometric_normal_ws, point.normal_ws,
+                        surface.to_viewer_ws, surface.reflectance.alpha);
 }
 CoatRay fetch_ray(CoatReuseArguments view, ivec2 pixel) {
   return view.coat_rays.at[index_of(view, pixel)];
