@@ -47,6 +47,7 @@ Bounds box_around(const std::vector<glm::vec3>& places) {
   const auto outliers = static_cast<std::size_t>(kOutlierShare * static_cast<float>(places.size()));
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<float> along;
+    along.reserve(places.size());
     for (const glm::vec3& place : places) along.push_back(place[axis]);
     std::sort(along.begin(), along.end());
     box.min[axis] = along[outliers];

@@ -116,6 +116,7 @@ std::optional<Scene> take_sky_dome(Scene& scene) {
   // Bounds take long where scenes are large
   if (std::none_of(scene.instances.begin(), scene.instances.end(), in_scene)) return std::nullopt;
   std::vector<Bounds> boxes;
+  boxes.reserve(scene.instances.size());
   Bounds all;
   for (const Instance& instance : scene.instances) {
     boxes.push_back(instance_bounds(scene, instance));
@@ -166,6 +167,7 @@ Environment sky_of_dome(const Scene& dome, const glm::vec3& eye_ws) {
   parallel_chunks(static_cast<std::size_t>(rows), 1, [&](std::size_t row, std::size_t) {
     const int y = static_cast<int>(row);
     std::vector<Ray> rays;
+    rays.reserve(columns);
     for (int x = 0; x < columns; ++x) {
       const glm::vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(columns),
                          (static_cast<float>(y) + 0.5f) / static_cast<float>(rows));
