@@ -22,9 +22,10 @@ constexpr float kMinLitShare = 0.4f;
 // this share of their own, as far as they are visible.
 constexpr float kMinEmissionRatio = 0.1f;
 // Lamps, such as a photographer's soft boxes, differ from signs in that they light nearly all of a
-// view: at least the first share of it. Beside them, it may be darker: a hundredth is still
-// visible where they are white.
-constexpr float kMinLitByLamps = 0.9f, kMinLampRatio = 0.01f;
+// view, at least the first share of it, and are brighter than what glTF files emit without
+// KHR_materials_emissive_strength [W/(m^2 sr)]. Beside them, the view may be darker: a hundredth is
+// still visible where they are white.
+constexpr float kMinLitByLamps = 0.9f, kMaxSignRadiance = 1.0f, kMinLampRatio = 0.01f;
 // A camera is indoors where at least this share of the directions around it end at a surface.
 constexpr float kMinEnclosure = 0.75f;
 // A room is closed where at most this share of the sky is visible from what the camera sees.
@@ -159,8 +160,9 @@ FirstLight choose_first_light(const World& world, const Camera& camera) {
   const SeenView view = sample_view(world, camera);
   const ViewLight light = measure_view_light(world, view);
   const bool indoors = enclosure(world, camera) >= kMinEnclosure;
-  const bool lit_by_lamps =
-      light.lit_by_emission >= kMinLitByLamps && light.emission_ratio >= kMinLampRatio;
+  const bool lit_by_lamps = light.lit_by_emission >= kMinLitByLamps &&
+                            light.emitter_radiance > kMaxSignRadiance &&
+                            light.emission_ratio >= kMinLampRatio;
   if (light.lit_by_emission >= kMinLitShare &&
       (indoors || lit_by_lamps || light.emission_ratio >= kMinEmissionRatio)) {
     return FirstLight::scene;

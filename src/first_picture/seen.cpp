@@ -150,9 +150,9 @@ ViewLight measure_view_light(const World& world, const SeenView& view) {
     std::nth_element(lit.begin(), middle, lit.end());
     const float least = *middle * kLitShare;
     const auto bright = std::count_if(lit.begin(), lit.end(), [&](float e) { return e >= least; });
-    light.emission_ratio = emitted > 0.0f
-                               ? *middle * kInvPi * static_cast<float>(count - reflecting) / emitted
-                               : kInfiniteDistance;
+    if (emitted > 0.0f) light.emitter_radiance = emitted / static_cast<float>(count - reflecting);
+    light.emission_ratio =
+        emitted > 0.0f ? *middle * kInvPi / light.emitter_radiance : kInfiniteDistance;
     light.lit_by_emission = static_cast<float>(bright) / static_cast<float>(reflecting);
   }
   return light;

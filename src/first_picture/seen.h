@@ -31,6 +31,7 @@ struct ViewLight {
   float emission_ratio = 0.0f;  ///< Median radiance that those would reflect if they were white,
                                 ///< over the mean radiance of the emitters that the camera sees;
                                 ///< infinite where it sees none.
+  float emitter_radiance = 0.0f;  ///< Mean over the emitters that the camera sees [W/(m^2 sr)].
   float sky_visibility = 0.0f;  ///< Share of the points' cosine-weighted hemispheres that is open.
 };
 ViewLight measure_view_light(const World& world, const SeenView& view);

@@ -100,6 +100,9 @@ TEST(FirstLight, IsWhatSoftBoxesSendWhereTheyLightAll) {
   ASSERT_LT(light.emission_ratio, 0.1f) << light.lit_by_emission;
   ASSERT_GT(light.lit_by_emission, 0.9f) << light.emission_ratio;
   EXPECT_EQ(choose_first_light(world, camera), FirstLight::scene);
+  // A label that glows as brightly as any without emissive strength is no lamp
+  scene.materials[1].emission = glm::vec3(1.0f);
+  EXPECT_NE(choose_first_light(World(scene), camera), FirstLight::scene);
 }
 
 TEST(FirstLight, LampsReachMostOfWhatTheCameraSees) {
