@@ -61,13 +61,13 @@ void set_first_light(FirstLight light, const World& world, const Camera& camera,
 /// from lamps indoors, stop the light of suns, and stretch the field's grid. Returns the dome as a
 /// scene of its own with the same lights, for sky_of_dome; none where there is no such mesh, where
 /// it moves or does not cover the sky, or where all else is unlit. Its instance stays, with an
-/// empty mesh.
+/// empty mesh. Looks at all vertices where any surface emits, and copies the dome's texture.
 std::optional<Scene> take_sky_dome(Scene& scene);
 
 /// A dome's radiance in all directions as seen from `eye_ws`, as a latitude-longitude map with as
 /// many columns as its texture, 256 to 4,096; black where there is no dome. What is unlit emits its
 /// colours [W/(m^2 sr)], or in the light of suns so much more that white is as bright as a clear
-/// sky beside them.
+/// sky beside them. Traces a ray for each texel, up to 8.4 million. `eye_ws` [m].
 Environment sky_of_dome(const Scene& dome, const glm::vec3& eye_ws);
 
 /// A box of about 4,096 probes around the surfaces that surround a camera, for fields whose grid

@@ -266,7 +266,7 @@ struct Bounds {
   bool operator==(const Bounds&) const = default;
 };
 
-/// World-space bounds of the vertices of one of the scene's instances.
+/// World-space bounds of the vertices of one of the scene's instances [m]; looks at all of them.
 Bounds instance_bounds(const Scene& scene, const Instance& instance);
 
 /// World-space bounds of all instances' vertices.

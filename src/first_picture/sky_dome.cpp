@@ -21,21 +21,20 @@ namespace lambent {
 namespace {
 
 // Number of directions from the middle of the scene in which a dome is looked for. It need not
-// reach down to the horizon, which the ground may hide: those below this height do not count.
+// reach down to the horizon, which the ground may hide: directions with a smaller sine of their
+// elevation than this do not count.
 constexpr int kDomeRays = 128;
-constexpr float kLeastHeight = 0.2f;
+constexpr float kMinSineOfElevation = 0.2f;
 // Share of them in which it must emit: it may have small gaps, and black spots.
 constexpr float kMinDome = 0.95f;
-// Its least distance from the middle of the scene, over the reach of half of what is in it: where a
-// dome is nearer, its light differs from place to place.
-constexpr float kFar = 5.0f;
+// Its least distance from the middle of the scene, over the distance within which half of the
+// scene's triangles are: where a dome is nearer, its light differs from place to place.
+constexpr float kMinDistance = 5.0f;
 // A dome's diagonal is at least this share of the scene's, which the ground below may exceed.
 constexpr float kMinSize = 0.2f;
 // Columns of the map: as many as the dome's texture has, within these. The edge of half a dome
 // needs some; more than the upper limit would take longer than the rest of a picture.
 constexpr int kMinColumns = 256, kMaxColumns = 4096;
-// Width of a dome without a texture, as a texture [texels].
-constexpr int kNoTexture = 1;
 
 /// Whether a surface may be a sky: it emits, nothing can be seen through it, and it does not move.
 bool may_be_sky(const Scene& scene, const Instance& instance) {
@@ -80,11 +79,11 @@ glm::vec3 emission_at(const World& dome, const Ray& ray, const Hit& hit) {
 /// Whether the dome emits in nearly all directions above the horizon, from far away.
 bool covers_sky(const World& dome, const Middle& middle) {
   std::vector<Ray> rays = rays_around(middle.position_ws, kDomeRays);
-  std::erase_if(rays, [](const Ray& ray) { return ray.direction.y < kLeastHeight; });
+  std::erase_if(rays, [](const Ray& ray) { return ray.direction.y < kMinSineOfElevation; });
   const std::vector<Hit> hits = trace(dome, rays);
   float covered = 0.0f;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (hits[i].distance < kFar * middle.reach) return false;
+    if (hits[i].distance < kMinDistance * middle.reach) return false;
     if (emission_at(dome, rays[i], hits[i]) != glm::vec3(0.0f)) covered += 1.0f;
   }
   return covered >= kMinDome * static_cast<float>(rays.size());
@@ -102,19 +101,20 @@ float unlit_factor(const Scene& dome) {
 }
 
 int columns_for(const Scene& dome) {
-  int columns = kNoTexture;
+  int columns = kMinColumns;
   for (const Texture& texture : dome.textures) {
     columns = std::max(columns, texture.levels.front().width);
   }
-  return std::clamp(columns, kMinColumns, kMaxColumns);
+  return std::min(columns, kMaxColumns);
 }
 
 }  // namespace
 
 std::optional<Scene> take_sky_dome(Scene& scene) {
-  const auto in_scene = [&](const Instance& instance) { return may_be_sky(scene, instance); };
-  // Bounds take long where scenes are large
-  if (std::none_of(scene.instances.begin(), scene.instances.end(), in_scene)) return std::nullopt;
+  // Most scenes have no such surface, and bounds take long where scenes are large
+  const bool any = std::any_of(scene.instances.begin(), scene.instances.end(),
+                               [&](const Instance& each) { return may_be_sky(scene, each); });
+  if (!any) return std::nullopt;
   std::vector<Bounds> boxes;
   boxes.reserve(scene.instances.size());
   Bounds all;

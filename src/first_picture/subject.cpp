@@ -88,7 +88,8 @@ float distance_between(const Bounds& a, const Bounds& b) {
   return glm::length(glm::max(glm::max(a.min - b.max, b.min - a.max), glm::vec3(0.0f)));
 }
 
-/// Removes strays from `members`; from the middle outwards, they are all that follows on a gap.
+/// Removes strays from `members`: in the order of distance from the middle, all that comes after a
+/// wide gap.
 void drop_strays(const Scene& scene, std::span<const Bounds> boxes,
                  std::vector<std::uint32_t>& members) {
   double total = 0.0;
@@ -144,7 +145,8 @@ Subject find_subject(const World& world) {
     boxes[i] = world.instance_bounds(static_cast<int>(i));
     if (!boxes[i].empty()) members.push_back(i);
   }
-  // Without strays, a ground may dwarf the rest, and without a sky around all, strays are outside
+  // Repeat both: once strays are gone, a ground may dwarf the rest, and once a sky is gone that
+  // encloses everything, there may be a gap between the rest and strays
   std::size_t before = 0;
   while (before != members.size()) {
     before = members.size();

@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
     Glass, CoatsBehindGlass,
     testing::Values(Shown{"point_on_a_dielectric", Source::point, false, 1, 0.1},
                     Shown{"point_on_a_clearcoat", Source::point, true, 1, 0.1},
-                    Shown{"point_behind_two_panes", Source::point, false, 2, 1},
+                    Shown{"point_behind_two_panes", Source::point, false, 2, 0.1},
                     Shown{"lamp_on_a_dielectric", Source::lamp, false, 1, 0.25},
                     Shown{"lamp_on_a_clearcoat", Source::lamp, true, 1, 0.25},
                     Shown{"sky_in_a_clearcoat", Source::sky, true, 1, 0.03}),
