@@ -169,14 +169,14 @@ LAMBENT_FN float coverage_at(SceneRef scene, MeshRef mesh, MaterialRef material,
   return alpha;
 }
 
-/// Whether a triangle stops a ray with this mask that hits it at these barycentrics.
-LAMBENT_FN bool stops_ray_at(SceneRef scene, uint instance, uint triangle, vec2 barycentrics,
-                             float distance, uint ray_mask) {
+/// The coverage of a triangle at these barycentrics.
+LAMBENT_FN HitCoverage hit_coverage_at(SceneRef scene, uint instance, uint triangle,
+                                       vec2 barycentrics) {
   MeshRef mesh = fetch_mesh(scene, fetch_instance(scene, instance).mesh);
   MaterialRef material = fetch_material(scene, mesh.material);
-  float alpha = coverage_at(scene, mesh, material, triangle_point(mesh, triangle, barycentrics));
-  float uniform_number = carries_sample(ray_mask)
-                             ? uniform_of_sample(ray_mask, instance, coverage_layer(distance))
-                             : uniform_of_hit(barycentrics, distance, triangle);
-  return stops_ray(uint(material.alpha_mode), material.alpha_cutoff, alpha, uniform_number);
+  HitCoverage found;
+  found.mode = uint(material.alpha_mode);
+  found.cutoff = material.alpha_cutoff;
+  found.alpha = coverage_at(scene, mesh, material, triangle_point(mesh, triangle, barycentrics));
+  return found;
 }

@@ -36,6 +36,9 @@ const uint kKindMaskBits = 0xFu, kSampleMaskKind = 1u;
 const uint kSampleMaskShift = 4u, kSampleMaskBits = 0xFFu;
 const uint kPixelMaskShift = 12u;
 
+/// A mask that meets all instances and carries no sample.
+const uint kChanceMask = 0xFFFFFFFFu;
+
 LAMBENT_FN uint sample_mask(uint pixel, uint sample_index, uint seed) {
   uint number = hash_pcg3d(uvec3(pixel, sample_index / (kSampleMaskBits + 1u), seed)).x;
   return kSampleMaskKind | ((sample_index & kSampleMaskBits) << kSampleMaskShift) |
@@ -46,20 +49,11 @@ LAMBENT_FN bool carries_sample(uint ray_mask) {
   return (ray_mask & kKindMaskBits) == kSampleMaskKind;
 }
 
-// Bits of a distance that tell layers apart: exponent and seven of the significand. Layers are as
-// thick as 1/256 to 1/128 of the distance, so that folds of a curtain decide each for itself, while
-// the samples of a pixel on one fold share a layer, unless it is seen edge-on.
-const uint kLayerShift = 16u;
-
-LAMBENT_FN uint coverage_layer(float distance) {
-  return floatBitsToUint(distance) >> kLayerShift;
-}
-
-/// A random number in [0, 1) for a pixel's sample at a layer of an instance: the sample's radical
-/// inverse, scrambled. A pixel's first 2^k samples are stratified, so that for example one of four
-/// rays is stopped where the probability is a quarter, whichever triangles of a fine mesh they hit.
-LAMBENT_FN float uniform_of_sample(uint ray_mask, uint instance, uint layer) {
-  uint seed = hash_pcg(hash_pcg3d(uvec3(ray_mask >> kPixelMaskShift, instance, layer)).x);
+/// The number of a pixel's sample, in [0, 1): its radical inverse, scrambled by the pixel. A
+/// pixel's first 2^k samples lie in equal parts, so that of four samples exactly one is below a
+/// quarter.
+LAMBENT_FN float uniform_of_sample(uint ray_mask) {
+  uint seed = hash_pcg(ray_mask >> kPixelMaskShift);
   uint index = (ray_mask >> kSampleMaskShift) & kSampleMaskBits;
   return uniform_from_bits(bitfieldReverse(scramble_reversed(index, seed)));
 }
@@ -76,6 +70,81 @@ LAMBENT_FN bool stops_ray(uint alpha_mode, float alpha_cutoff, float alpha, floa
   if (alpha_mode == kAlphaMask) return alpha >= alpha_cutoff;
   if (alpha_mode == kAlphaBlend) return alpha > uniform_number;
   return true;
+}
+
+/// What a material covers at a hit, see hit_coverage_at().
+struct HitCoverage {
+  uint mode;     ///< kAlphaOpaque, ...
+  float cutoff;  ///< The least alpha that stops rays; for kAlphaMask.
+  float alpha;   ///< 0 to 1.
+};
+
+/// Share of a pixel's sample that a surface covers which has stopped its ray: 1 unless blended.
+LAMBENT_FN float covered_share(HitCoverage found) {
+  return found.mode == kAlphaBlend ? clamp(found.alpha, 0.0f, 1.0f) : 1.0f;
+}
+
+/// Whether a triangle stops a ray with this mask that hits it at these barycentrics. Rays that
+/// carry a pixel's sample stop at all blended surfaces that cover anything: whether the sample ends
+/// there is found by ends_sample(), in the order of the surfaces. Blended surfaces up to the
+/// distance `passed` [m] let all rays through.
+LAMBENT_FN bool stops_ray(HitCoverage found, uint triangle, vec2 barycentrics, float distance,
+                          uint ray_mask, float passed) {
+  if (found.mode == kAlphaBlend && distance <= passed) return false;
+  float uniform_number =
+      carries_sample(ray_mask) ? 0.0f : uniform_of_hit(barycentrics, distance, triangle);
+  return stops_ray(found.mode, found.cutoff, found.alpha, uniform_number);
+}
+
+/// How many blended surfaces a pixel's sample passes in their order. At those behind them chance
+/// decides, as for all other rays: each surface costs a ray, and few pictures show more.
+const uint kMaxOrderedSurfaces = 16u;
+
+/// Surfaces whose distances differ by less than this, relative to themselves, are passed together:
+/// some units in the last place, by which the distances of one hit may differ from ray to ray.
+const float kSameDistance = 4.8e-7f;
+
+/// OrderedCoverage::passed before the first surface.
+const float kNothingPassed = -1.0f;
+
+/// The blended surfaces that a pixel's sample has met, front to back. The sample ends at the first
+/// surface at which the share of the pixel that all surfaces so far cover exceeds its number. Of
+/// the pixel's samples, whose numbers lie in equal parts, each surface so gets the share that it
+/// has in the pixel, however many others are before it and wherever in the pixel the samples are.
+struct OrderedCoverage {
+  uint ray_mask;  ///< Of the ray that goes on.
+  float number;   ///< The sample's, 0 to 1.
+  float open;     ///< Share of the pixel that the surfaces so far leave uncovered.
+  float passed;   ///< Blended surfaces up to here have been passed [m].
+  uint surfaces;  ///< How many.
+};
+
+LAMBENT_FN OrderedCoverage start_coverage(uint ray_mask) {
+  OrderedCoverage met;
+  met.ray_mask = ray_mask;
+  met.number = uniform_of_sample(ray_mask);
+  met.open = 1.0f;
+  met.passed = kNothingPassed;
+  met.surfaces = 0u;
+  return met;
+}
+
+/// Whether a sample ends at the surface, of coverage `alpha`, that its ray met at `distance`.
+/// Otherwise the surface is passed, and the ray goes on from restart_distance().
+LAMBENT_FN bool ends_sample(LAMBENT_INOUT(OrderedCoverage) met, float alpha, float distance) {
+  if (!carries_sample(met.ray_mask)) return true;
+  met.open *= 1.0f - alpha;
+  if (1.0f - met.open > met.number) return true;
+  met.passed = distance * (1.0f + kSameDistance);
+  met.surfaces += 1u;
+  if (met.surfaces == kMaxOrderedSurfaces) met.ray_mask = kChanceMask;
+  return false;
+}
+
+/// Where a ray that has passed a surface goes on [m]: just before it, for an opaque surface may lie
+/// in the same place.
+LAMBENT_FN float restart_distance(OrderedCoverage met) {
+  return met.passed * (1.0f - 2.0f * kSameDistance);
 }
 
 LAMBENT_END

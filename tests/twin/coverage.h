@@ -16,6 +16,9 @@ struct CoverageArguments {
   uint padding;
 };
 
+/// The distance up to which blended surfaces have been passed [m]; hits are up to 10 m away.
+const float kPassed = 1.0f;
+
 /// Every other ray carries a pixel's sample.
 LAMBENT_FN uint mask_of_ray(uint ray) {
   return ray % 2u == 0u ? 0xFFFFFFFFu : sample_mask(ray / 16u, ray / 2u, 3u);

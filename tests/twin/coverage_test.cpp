@@ -60,8 +60,10 @@ TEST_F(CoverageTwin, StopsTheRaysThatTheHostStops) {
   std::uint32_t stopped = 0;
   for (std::uint32_t i = 0; i < kHits; ++i) {
     const Hit& hit = hits[i];
-    const bool expected = stops_ray_at(scene, hit.instance, hit.triangle, hit.barycentrics,
-                                       hit.distance, mask_of_ray(i));
+    const HitCoverage coverage =
+        hit_coverage_at(scene, hit.instance, hit.triangle, hit.barycentrics);
+    const bool expected =
+        stops_ray(coverage, hit.triangle, hit.barycentrics, hit.distance, mask_of_ray(i), kPassed);
     ASSERT_EQ(found[i] != 0, expected) << "hit " << i;
     stopped += found[i];
   }

@@ -5,6 +5,7 @@
 
 #include "raytracing/vulkan/device_world.h"
 #include "raytracing/world_access.h"
+#include "scene/coverage.h"
 #include "support/hand_made.h"
 #include "support/vulkan_device.h"
 #include "twin/trace_agreement.h"
@@ -135,6 +136,49 @@ TEST_F(SeeThroughTwin, BlendsLetTheSameShareOfRaysPass) {
       passed += hits[i].missed() ? 1 : 0;
     }
     EXPECT_NEAR(passed / rays_cast, through, 4.0 * deviation);
+  }
+}
+
+// Samples of pixels meet sheets in their order, and end at the same ones. An opaque wall behind
+// them stops the rest; the foremost sheet is hidden by a post here and there.
+TEST_F(SeeThroughTwin, SamplesEndAtTheSameSurfaces) {
+  constexpr int kSheets = 20, kSamples = 16, kPixels = 600;
+  Scene scene;
+  scene.materials.assign(2, test::lambert(glm::vec3(0.5f)));
+  scene.materials[0].alpha_mode = AlphaMode::blend;
+  scene.materials[0].base_color.a = 0.1f;
+  test::add(scene, test::quad({0, 0, kSheets}, {1, 0, 0}, {0, 1, 0}, 1));
+  test::add(scene, test::quad({0.4f, 0, -0.5f}, {0.2f, 0, 0}, {0, 1, 0}, 1));
+  for (int i = 0; i < kSheets; ++i) {
+    test::add(scene, test::quad({0, 0, static_cast<float>(i)}, {1, 0, 0}, {0, 1, 0}, 0));
+  }
+  const World on_host(scene), on_device(scene, shared_device());
+  std::vector<Ray> rays;
+  for (int i = 0; i < kPixels * kSamples; ++i) {
+    const int pixel = i / kSamples;
+    const float x = (static_cast<float>(pixel % 30) + 0.3f) / 30.0f,
+                y = (static_cast<float>(pixel) + 0.6f) / kPixels;
+    rays.push_back({glm::vec3(x, y, -1.0f), 0.0f, {0, 0, 1}});
+    rays.back().mask = sample_mask(static_cast<uint>(pixel), static_cast<uint>(i % kSamples), 3u);
+  }
+  std::vector<Hit> host(rays.size()), device_hits(rays.size());
+  tracer_of(on_host).closest_hits(rays, host);
+  tracer_of(on_device).closest_hits(rays, device_hits);
+  std::vector<int> ends(scene.instances.size(), 0);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    ASSERT_FALSE(host[i].missed());
+    ++ends[host[i].instance];
+    // Behind more sheets than are met in order, chance hangs on the last bits of a hit
+    const bool ordered = host[i].instance < 2u + kMaxOrderedSurfaces && host[i].instance != 0;
+    if (ordered) {
+      ASSERT_EQ(device_hits[i].instance, host[i].instance) << "ray " << i;
+    }
+  }
+  // Of the rays beside the post a tenth ends at the first sheet, and so on
+  const double beside = static_cast<double>(rays.size()) - ends[1];
+  EXPECT_GT(ends[1], 0);
+  for (int i = 0; i < kSheets; ++i) {
+    EXPECT_NEAR(ends[i + 2] / beside, 0.1 * std::pow(0.9, i), 0.01) << "sheet " << i;
   }
 }
 

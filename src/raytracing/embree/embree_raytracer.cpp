@@ -2,14 +2,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
-#include <glm/gtc/type_ptr.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "core/stopwatch.h"
-#include "raytracing/embree/geometry.h"
-#include "raytracing/raytracer.h"
+#include "raytracing/embree/embree_raytracer.h"
 #include "raytracing/refit.h"
 #include "raytracing/surface_math.h"
 #include "scene/transmission.h"
@@ -18,73 +15,13 @@ namespace lambent {
 namespace {
 
 using embree::Geometry;
-using embree::SceneHandle;
-using embree::Slots;
 
 bool count_bytes(void* total, ssize_t bytes, bool /*post*/) {
   *static_cast<std::atomic<std::int64_t>*>(total) += bytes;
   return true;
 }
 
-/// All geometry is in one hierarchy while nothing moves, which is fastest to traverse. Once
-/// something moves, there are two levels: static geometry in a hierarchy of its own, and each
-/// moving instance beside it. Moving an instance then costs no more than rebuilding the upper
-/// level.
-class EmbreeRayTracer final : public RayTracer {
- public:
-  explicit EmbreeRayTracer(const Scene& scene);
-
-  void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const override;
-  void occlusions(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const override;
-  void transmittances(std::span<const Ray> rays, std::span<glm::vec3> through) const override;
-  bool has_glass() const override { return has_glass_; }
-  AccelerationStatistics statistics() const override { return statistics_; }
-  void update(const GeometryEdits& edits) override;
-
- private:
-  /// An instance of the scene in Embree.
-  struct Placement {
-    Geometry geometry;
-    std::uint32_t mask = kRayMeetsAll;
-    bool moves = false;     // an instance of its own in the upper level
-    bool baked = false;     // its vertices are in world space
-    bool mirrored = false;  // its transform flips faces
-    bool used = false;
-  };
-  /// The hierarchy of one mesh, for instances that are not baked.
-  struct MeshScene {
-    SceneHandle scene;
-    Geometry geometry;
-    float half_area = 0.0f;  // when built [m^2]
-    bool deforms = false;
-  };
-
-  Hit hit_of(const Ray& ray, const RTCRayHit& found) const;
-  bool follow_list(const GeometryEdits& edits);
-  void build();
-  void make_mesh_scene(std::size_t mesh);
-  void place(std::uint32_t slot, RTCScene into);
-  void refit(const GeometryEdits& edits, const std::vector<std::uint8_t>& bent);
-  void finish(double* ms, Stopwatch& watch);
-  const Instance& instance_at(std::uint32_t slot) const {
-    return slots_.scene->instances[slots_.instance_of[slot]];
-  }
-  void check_masks() const;
-  [[noreturn]] static void fail_to_build();
-
-  Slots slots_;
-  std::atomic<std::int64_t> bytes_ = 0;
-  embree::Device device_;
-  std::vector<MeshScene> meshes_;
-  std::vector<Placement> placements_;   // by slot
-  std::vector<std::uint32_t> slot_of_;  // by instance
-  std::vector<std::uint32_t> free_slots_;
-  SceneHandle still_;  // static geometry, where something else moves
-  SceneHandle world_;
-  bool two_levels_ = false;
-  bool has_glass_ = false;
-  AccelerationStatistics statistics_;
-};
+}  // namespace
 
 EmbreeRayTracer::EmbreeRayTracer(const Scene& scene) {
   Stopwatch watch;
@@ -125,6 +62,9 @@ void EmbreeRayTracer::finish(double* ms, Stopwatch& watch) {
   const Scene& scene = *slots_.scene;
   has_glass_ = std::any_of(scene.materials.begin(), scene.materials.end(),
                            [](const Material& material) { return is_transmissive(material); });
+  has_blends_ =
+      std::any_of(scene.materials.begin(), scene.materials.end(),
+                  [](const Material& material) { return material.alpha_mode == AlphaMode::blend; });
   statistics_.triangles = triangle_count(scene);
   statistics_.instances = scene.instances.size();
   statistics_.bytes = static_cast<std::size_t>(std::max<std::int64_t>(bytes_, 0));
@@ -313,80 +253,6 @@ void EmbreeRayTracer::refit(const GeometryEdits& edits, const std::vector<std::u
   }
   rtcCommitScene(world_.get());
 }
-
-RTCRay to_embree(const Ray& ray) {
-  RTCRay result{};
-  result.org_x = ray.origin.x;
-  result.org_y = ray.origin.y;
-  result.org_z = ray.origin.z;
-  result.tnear = ray.t_min;
-  result.dir_x = ray.direction.x;
-  result.dir_y = ray.direction.y;
-  result.dir_z = ray.direction.z;
-  result.tfar = ray.t_max;
-  result.mask = ray.mask;
-  return result;
-}
-
-Hit EmbreeRayTracer::hit_of(const Ray& ray, const RTCRayHit& found) const {
-  Hit hit;
-  if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
-  bool baked = false;
-  const std::uint32_t slot = Slots::slot_of(found.hit.geomID, found.hit.instID[0], baked);
-  hit.instance = slots_.instance_of[slot];
-  hit.distance = found.ray.tfar;
-  hit.triangle = found.hit.primID;
-  hit.barycentrics = {found.hit.u, found.hit.v};
-
-  // Embree's normal is in object space for instances. Cofactors transform it to the world, except
-  // for the sign in mirrored placements, whose baked vertices have the opposite winding
-  glm::vec3 normal(found.hit.Ng_x, found.hit.Ng_y, found.hit.Ng_z);
-  if (!baked) {
-    normal = cofactors(slots_.scene->instances[hit.instance].world_from_object) * normal;
-  }
-  hit.front_face = (glm::dot(normal, ray.direction) < 0.0f) != placements_[slot].mirrored;
-  return hit;
-}
-
-void EmbreeRayTracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
-  assert(rays.size() == hits.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    RTCRayHit query{};
-    query.ray = to_embree(rays[i]);
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    embree::Query asked(embree::Query::Kind::closest, rays[i]);
-    embree::intersect(world_.get(), asked, query);
-    hits[i] = hit_of(rays[i], query);
-  }
-}
-
-void EmbreeRayTracer::occlusions(std::span<const Ray> rays,
-                                 std::span<std::uint8_t> occluded) const {
-  assert(rays.size() == occluded.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    RTCRay query = to_embree(rays[i]);
-    embree::Query asked(embree::Query::Kind::occlusion, rays[i]);
-    embree::occluded(world_.get(), asked, query);
-    // Embree marks an occluded ray by setting its far end to minus infinity.
-    occluded[i] = query.tfar < 0.0f ? 1 : 0;
-  }
-}
-
-void EmbreeRayTracer::transmittances(std::span<const Ray> rays,
-                                     std::span<glm::vec3> through) const {
-  assert(rays.size() == through.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    RTCRay query = to_embree(rays[i]);
-    embree::Query asked(embree::Query::Kind::transmittance, rays[i]);
-    embree::occluded(world_.get(), asked, query);
-    const bool stopped = query.tfar < 0.0f;
-    through[i] =
-        stopped ? glm::vec3(0.0f) : asked.through * exp(-max(asked.optical_depth, glm::vec3(0.0f)));
-  }
-}
-
-}  // namespace
 
 std::unique_ptr<RayTracer> make_embree_raytracer(const Scene& scene) {
   return std::make_unique<EmbreeRayTracer>(scene);

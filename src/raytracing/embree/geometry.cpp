@@ -44,8 +44,11 @@ void filter_see_through(const RTCFilterFunctionNArguments* args) {
     const std::uint32_t instance =
         slots.instance_of[Slots::slot_of(hit.geomID, hit.instID[0], baked)];
     const float distance = RTCRayN_tfar(args->ray, args->N, lane);
-    bool stops = stops_ray_at(scene, instance, hit.primID, {hit.u, hit.v}, distance,
-                              RTCRayN_mask(args->ray, args->N, lane));
+    auto& query = *static_cast<Query*>(args->context);
+    const vec2 barycentrics(hit.u, hit.v);
+    bool stops =
+        stops_ray(hit_coverage_at(scene, instance, hit.primID, barycentrics), hit.primID,
+                  barycentrics, distance, RTCRayN_mask(args->ray, args->N, lane), query.passed);
     const Instance& placed = scene.instances[instance];
     if (stops && is_transmissive(scene.materials[scene.meshes[placed.mesh].material])) {
       const vec3 normal(hit.Ng_x, hit.Ng_y, hit.Ng_z);
@@ -54,8 +57,8 @@ void filter_see_through(const RTCFilterFunctionNArguments* args) {
                            RTCRayN_dir_z(args->ray, args->N, lane));
       const bool turned = baked && glm::determinant(mat3(placed.world_from_object)) < 0.0f;
       const bool from_front = (dot(normal, direction) < 0.0f) != turned;
-      stops = stops_at_glass(scene, {instance, hit.primID, {hit.u, hit.v}, from_front}, distance,
-                             *static_cast<Query*>(args->context));
+      stops =
+          stops_at_glass(scene, {instance, hit.primID, barycentrics, from_front}, distance, query);
     }
     if (!stops) args->valid[lane] = 0;
   }

@@ -10,6 +10,7 @@
 #include "lambent/scene.h"
 #include "raytracing/embree/api.h"
 #include "raytracing/raytracer.h"
+#include "scene/coverage.h"
 
 namespace lambent::embree {
 
@@ -33,10 +34,14 @@ inline unsigned id_of_slot(std::uint32_t slot) {
 /// The purpose of a ray, which the filter of transparent surfaces reads.
 struct Query : Context {
   enum class Kind : std::uint8_t { closest, occlusion, transmittance };
-  Query(Kind asked, const Ray& traced) : kind(asked), ray(traced) { start(*this); }
+  Query(Kind asked, const Ray& traced, float passed_before = kNothingPassed)
+      : kind(asked), ray(traced), passed(passed_before) {
+    start(*this);
+  }
 
   Kind kind;
   const Ray& ray;
+  float passed;  // blended surfaces up to this distance let the ray through [m]
   // For transmittance: the product of shares so far, and the sum of absorption times distance
   glm::vec3 through{1.0f};
   glm::vec3 optical_depth{0.0f};

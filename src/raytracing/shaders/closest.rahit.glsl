@@ -9,16 +9,20 @@
 layout(push_constant, scalar) uniform Push {
   TraceArguments args;
 };
-layout(location = 0) rayPayloadInEXT HitRecord hit;  // see find_closest()
+layout(location = 0) rayPayloadInEXT ClosestPayload found;
 hitAttributeEXT vec2 barycentrics;
 
 void main() {
   uint instance = uint(gl_InstanceCustomIndexEXT);
   uint triangle = uint(gl_PrimitiveID);
-  if (!stops_ray_at(args.scene, instance, triangle, barycentrics, gl_HitTEXT, hit.front_face)) {
+  HitCoverage coverage = hit_coverage_at(args.scene, instance, triangle, barycentrics);
+  if (!stops_ray(coverage, triangle, barycentrics, gl_HitTEXT, found.mask, found.passed)) {
     ignoreIntersectionEXT;
   }
-  if (!crosses_glass(hit.front_face)) return;
+  found.instance = instance;
+  found.triangle = triangle;
+  found.share = covered_share(coverage);
+  if (!crosses_glass(found.mask)) return;
   if (!is_transmissive(material_of(args.scene, instance))) return;
   bool from_front = gl_HitKindEXT == gl_HitKindFrontFacingTriangleEXT;
   vec3 share = straight_share_at(args.scene, instance, triangle, barycentrics, from_front,

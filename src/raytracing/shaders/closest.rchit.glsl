@@ -4,12 +4,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_tracing : require
-#include "raytracing/ray_records.h"
+#include "raytracing/vulkan/trace_arguments.h"
 
-layout(location = 0) rayPayloadInEXT HitRecord hit;
+layout(location = 0) rayPayloadInEXT ClosestPayload found;
 hitAttributeEXT vec2 barycentrics;
 
 void main() {
-  hit = HitRecord(gl_HitTEXT, uint(gl_InstanceCustomIndexEXT), uint(gl_PrimitiveID), barycentrics,
-                  gl_HitKindEXT == gl_HitKindFrontFacingTriangleEXT ? 1u : 0u);
+  uint instance = uint(gl_InstanceCustomIndexEXT);
+  uint triangle = uint(gl_PrimitiveID);
+  // What was tested last may be behind this hit
+  if (instance != found.instance || triangle != found.triangle) found.share = 1.0f;
+  found.hit = HitRecord(gl_HitTEXT, instance, triangle, barycentrics,
+                        gl_HitKindEXT == gl_HitKindFrontFacingTriangleEXT ? 1u : 0u);
 }

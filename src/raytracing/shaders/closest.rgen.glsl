@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the nearest hit of each ray.
+// Finds the nearest hit of each ray. Rays that carry a pixel's sample go on through surfaces that
+// do not end it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "raytracing/shaders/find_closest.glsl"
@@ -12,5 +13,13 @@ void main() {
   uint i = gl_LaunchIDEXT.y * gl_LaunchSizeEXT.x + gl_LaunchIDEXT.x;
   if (i >= args.count) return;
   RayRecord ray = args.rays.at[i];
-  args.hits.at[i] = find_closest(args.structure, ray, gl_RayFlagsNoneEXT, device_mask(ray.mask));
+  OrderedCoverage met = start_coverage(ray.mask);
+  bool ended = false;
+  while (!ended) {
+    find_closest(args.structure, ray, gl_RayFlagsNoneEXT, device_mask(ray.mask), met.passed);
+    ended = missed(found.hit) || ends_sample(met, found.share, found.hit.distance);
+    ray.t_min = restart_distance(met);
+    ray.mask = met.ray_mask;
+  }
+  args.hits.at[i] = found.hit;
 }

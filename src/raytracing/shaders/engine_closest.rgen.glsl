@@ -13,5 +13,6 @@ void main() {
   uint i = gl_LaunchIDEXT.y * gl_LaunchSizeEXT.x + gl_LaunchIDEXT.x;
   if (i >= args.count) return;
   RayRecord ray = args.rays.at[i];
-  args.hits.at[i] = find_closest(args.structure, ray, gl_RayFlagsOpaqueEXT, ray.mask);
+  find_closest(args.structure, ray, gl_RayFlagsOpaqueEXT, ray.mask, kNothingPassed);
+  args.hits.at[i] = found.hit;
 }

@@ -16,7 +16,8 @@ hitAttributeEXT vec2 barycentrics;
 void main() {
   uint instance = uint(gl_InstanceCustomIndexEXT);
   uint triangle = uint(gl_PrimitiveID);
-  if (!stops_ray_at(args.scene, instance, triangle, barycentrics, gl_HitTEXT, kRayMeetsAll)) {
+  HitCoverage coverage = hit_coverage_at(args.scene, instance, triangle, barycentrics);
+  if (!stops_ray(coverage, triangle, barycentrics, gl_HitTEXT, kRayMeetsAll, kNothingPassed)) {
     ignoreIntersectionEXT;
   }
   MaterialRecord material = material_of(args.scene, instance);

@@ -30,6 +30,18 @@ struct EngineTraceArguments {
   uint mask;  ///< Mask of the rays of engine_occlusion, in place of their own masks.
 };
 
+/// A ray in search of its closest hit.
+struct ClosestPayload {
+  HitRecord hit;  ///< A miss until the search has ended.
+  uint mask;      ///< The ray's.
+  float passed;   ///< Blended surfaces up to here let the ray through [m].
+  // The see-through triangle that stopped the ray last, and its covered_share(); after the search
+  // the share is that of the hit.
+  uint instance;
+  uint triangle;
+  float share;
+};
+
 /// The light along a ray, as far as the ray has been traced.
 struct TransmittancePayload {
   vec3 through;         ///< Share that passes the surfaces so far.

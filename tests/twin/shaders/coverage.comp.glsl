@@ -14,7 +14,9 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
   HitRecord hit = args.hits.at[i];
-  bool stops = stops_ray_at(args.scene, hit.instance, hit.triangle, hit.barycentrics, hit.distance,
-                            mask_of_ray(i));
+  HitCoverage coverage =
+      hit_coverage_at(args.scene, hit.instance, hit.triangle, hit.barycentrics);
+  bool stops = stops_ray(coverage, hit.triangle, hit.barycentrics, hit.distance, mask_of_ray(i),
+                         kPassed);
   args.stops.at[i] = stops ? 1u : 0u;
 }
