@@ -78,6 +78,7 @@ FirstLight light_of_name(const std::string& name) {
   return name == "studio"  ? FirstLight::studio
          : name == "lamps" ? FirstLight::lamps
          : name == "sun"   ? FirstLight::sun
+         : name == "sky"   ? FirstLight::sky
                            : FirstLight::scene;
 }
 
@@ -87,6 +88,8 @@ std::string describe(FirstLight light, const Scene& scene, bool has_dome) {
       return "a studio";
     case FirstLight::sun:
       return "sun and sky";
+    case FirstLight::sky:
+      return "the scene's, under a sky in proportion to its suns";
     case FirstLight::lamps:
       return scene.lights.size() == 1 ? "a lamp" : std::to_string(scene.lights.size()) + " lamps";
     case FirstLight::scene:
@@ -105,10 +108,11 @@ std::string describe(FirstLight light, const Scene& scene, bool has_dome) {
 
 void add_light_options(CLI::App& command, LightOptions& o) {
   command
-      .add_option("--light", o.light,
-                  "auto: the scene's, else what suits it. scene, studio, sun (and sky), lamps, or "
-                  "none (but what surfaces emit)")
-      ->check(one_of({"auto", "scene", "studio", "sun", "lamps", "none"}))
+      .add_option(
+          "--light", o.light,
+          "auto: the scene's, else what suits it. scene, sky (as much as its suns have), studio, "
+          "sun (and sky), lamps, or none (but what surfaces emit)")
+      ->check(one_of({"auto", "scene", "sky", "studio", "sun", "lamps", "none"}))
       ->capture_default_str()
       ->type_name("L");
   command.add_option("--sun", o.sun, "Add a sun whose light travels this way: --sun=0.3,-1,0.2")
@@ -152,9 +156,11 @@ Expected<std::string> add_first_light(const LightOptions& options, const Camera&
   if (light == FirstLight::scene) return describe(light, scene, sky_dome.has_value());
   set_first_light(light, world, camera, scene);
   if (const auto changes = world.update(); !changes) return tl::unexpected(changes.error());
-  const bool asked = options.light != "auto";
+  if (options.light != "auto") return describe(light, scene, false);
   return describe(light, scene, false) +
-         (asked ? "" : ", as the scene brings none (--light, --sun and --sky choose)");
+         (light == FirstLight::sky
+              ? ", as it brings none (--light scene leaves it black)"
+              : ", as the scene brings none (--light, --sun and --sky choose)");
 }
 
 }  // namespace lambent::cli

@@ -38,17 +38,19 @@ bool sees_a_surface(const World& world, const Camera& camera, float aspect);
 /// Light for scenes that have none.
 enum class FirstLight : std::uint8_t {
   scene,   ///< The scene's own light.
+  sky,     ///< The scene's lights under a sky in proportion to its suns: for open scenes.
   studio,  ///< Soft boxes as key, fill and rim, in a neutral surrounding: for objects.
   sun,     ///< Sun and sky: for open scenes.
   lamps,   ///< Lamps below the ceiling: for closed rooms.
 };
 
-/// "scene", "studio", "sun" or "lamps".
+/// "scene", "sky", "studio", "sun" or "lamps".
 std::string_view name_of(FirstLight light);
 
 /// Chooses the light for a camera's view: the scene's, where it has lights or a sky or where its
 /// emissive surfaces light what the camera sees; otherwise one that suits the camera's
-/// surroundings. Traces some 10,000 rays.
+/// surroundings. Outdoors, where the camera sees past the scene, suns without a sky get one. Traces
+/// some 10,000 rays.
 FirstLight choose_first_light(const World& world, const Camera& camera);
 
 /// Replaces the scene's lights and environment by those of `light`, set up for the camera's view;

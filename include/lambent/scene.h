@@ -263,6 +263,11 @@ struct Bounds {
     min = glm::min(min, p);
     max = glm::max(max, p);
   }
+  /// Grows the box until it holds `box`; an empty one adds nothing.
+  void add(const Bounds& box) {
+    min = glm::min(min, box.min);
+    max = glm::max(max, box.max);
+  }
   bool operator==(const Bounds&) const = default;
 };
 

@@ -36,6 +36,9 @@ constexpr float kMinCourt = 0.05f;
 // black.
 constexpr float kSkyThroughWindows = 0.5f;
 
+// The sky is missing where at least this share of what the camera sees is empty.
+constexpr float kMinEmptyShare = 0.02f;
+
 // Number of rays down onto a scene's footprint, along each edge.
 constexpr int kRaysAlongFootprint = 16;
 // A scene has a ground where rays hit something over the first share of its footprint, where at
@@ -139,12 +142,30 @@ glm::vec3 best_sun_way(const World& world, const SeenView& view) {
   return best;
 }
 
+/// Whether a scene stands on a ground, rather than being an object that is shown by itself.
+bool is_outdoors(const World& world) {
+  const Subject subject = find_subject(world);
+  if (subject.bounds.empty()) return false;
+  const bool dwarfed = diagonal(subject.site) > 2.0f * diagonal(subject.bounds);
+  return dwarfed || has_ground(world, subject.bounds);
+}
+
+/// Whether suns shine out of a void that the camera sees.
+bool lacks_a_sky(const World& world, const Camera& camera) {
+  const Scene& scene = world.scene();
+  if (scene.environment.radiance != glm::vec3(0.0f) || sun_ratio(scene) <= 0.0f) return false;
+  return enclosure(world, camera) < kMinEnclosure &&
+         sample_view(world, camera).sky_share >= kMinEmptyShare && is_outdoors(world);
+}
+
 }  // namespace
 
 std::string_view name_of(FirstLight light) {
   switch (light) {
     case FirstLight::scene:
       return "scene";
+    case FirstLight::sky:
+      return "sky";
     case FirstLight::studio:
       return "studio";
     case FirstLight::sun:
@@ -156,7 +177,9 @@ std::string_view name_of(FirstLight light) {
 }
 
 FirstLight choose_first_light(const World& world, const Camera& camera) {
-  if (has_lights_or_sky(world.scene())) return FirstLight::scene;
+  if (has_lights_or_sky(world.scene())) {
+    return lacks_a_sky(world, camera) ? FirstLight::sky : FirstLight::scene;
+  }
   const SeenView view = sample_view(world, camera);
   const ViewLight light = measure_view_light(world, view);
   const bool indoors = enclosure(world, camera) >= kMinEnclosure;
@@ -171,17 +194,17 @@ FirstLight choose_first_light(const World& world, const Camera& camera) {
     const bool closed = light.sky_visibility <= kMaxSkyIndoors && !has_court(world);
     return closed ? FirstLight::lamps : FirstLight::sun;
   }
-  const Subject subject = find_subject(world);
-  if (subject.bounds.empty()) return FirstLight::studio;
-  const bool dwarfed = diagonal(subject.site) > 2.0f * diagonal(subject.bounds);
-  return dwarfed || has_ground(world, subject.bounds) ? FirstLight::sun : FirstLight::studio;
+  return is_outdoors(world) ? FirstLight::sun : FirstLight::studio;
 }
 
 void set_first_light(FirstLight light, const World& world, const Camera& camera, Scene& scene) {
   if (light == FirstLight::scene) return;
   const SeenView view = sample_view(world, camera);
   const std::uint32_t revision = scene.environment.revision + 1;
-  if (light == FirstLight::studio) {
+  if (light == FirstLight::sky) {
+    scene.environment = {};
+    scene.environment.radiance = kFirstSky * sun_ratio(scene);
+  } else if (light == FirstLight::studio) {
     glm::vec3 front(camera.world_from_view[2]);  // the camera looks along its -Z
     front.y = 0.0f;
     front = glm::length(front) > 0.0f ? glm::normalize(front) : glm::vec3(0.0f, 0.0f, 1.0f);

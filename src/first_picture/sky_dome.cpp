@@ -93,11 +93,7 @@ bool covers_sky(const World& dome, const Middle& middle) {
 /// taken for those of a sky that suits it.
 float unlit_factor(const Scene& dome) {
   if (!dome.materials.front().unlit) return 1.0f;
-  float suns = 0.0f;
-  for (const Light& light : dome.lights) {
-    if (light.type == Light::Type::directional) suns += luminance(light.intensity);
-  }
-  return std::max(1.0f, suns * luminance(kFirstSky) / luminance(kFirstSunIrradiance));
+  return std::max(1.0f, sun_ratio(dome) * luminance(kFirstSky));
 }
 
 int columns_for(const Scene& dome) {
@@ -121,8 +117,7 @@ std::optional<Scene> take_sky_dome(Scene& scene) {
   for (const Instance& instance : scene.instances) {
     boxes.push_back(instance_bounds(scene, instance));
     if (boxes.back().empty()) continue;
-    all.add(boxes.back().min);
-    all.add(boxes.back().max);
+    all.add(boxes.back());
   }
   std::vector<std::uint32_t> candidates, rest;
   bool any_lit = false;

@@ -7,6 +7,7 @@
 
 #include "first_picture/survey.h"
 #include "scene/latitude_longitude.h"
+#include "shared/color.h"
 
 namespace lambent {
 namespace {
@@ -85,6 +86,14 @@ Light make_key_light(const glm::vec3& front_ws) {
                                             glm::radians(kKey.elevation));
   key.intensity = glm::vec3(kKeyIrradiance);
   return key;
+}
+
+float sun_ratio(const Scene& scene) {
+  float suns = 0.0f;
+  for (const Light& light : scene.lights) {
+    if (light.type == Light::Type::directional) suns += luminance(light.intensity);
+  }
+  return suns / luminance(kFirstSunIrradiance);
 }
 
 Light make_first_sun(const glm::vec3& direction_ws) {

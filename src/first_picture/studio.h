@@ -24,4 +24,8 @@ Light make_first_sun(const glm::vec3& direction_ws);
 inline constexpr glm::vec3 kFirstSunIrradiance{20.0f, 18.0f, 15.0f};
 inline constexpr glm::vec3 kFirstSky{1.5f, 2.0f, 2.6f};
 
+/// Irradiance of a scene's suns over kFirstSunIrradiance, by luminance: 0 where it has none. So
+/// much brighter than kFirstSky is a sky that suits them.
+float sun_ratio(const Scene& scene);
+
 }  // namespace lambent

@@ -38,11 +38,6 @@ std::size_t count_dwarfing(std::span<const Bounds> boxes, std::span<const std::u
   return 0;
 }
 
-void add(const Bounds& box, Bounds& sum) {
-  sum.add(box.min);
-  sum.add(box.max);
-}
-
 /// Removes grounds and skies from `members`, and adds their boxes to `site`.
 void drop_backdrops(std::span<const Bounds> boxes, std::vector<std::uint32_t>& members,
                     Bounds& site) {
@@ -53,14 +48,14 @@ void drop_backdrops(std::span<const Bounds> boxes, std::vector<std::uint32_t>& m
   std::vector<Bounds> around(members.size());
   Bounds sum;
   for (std::size_t i = 0; i < members.size(); ++i) {
-    add(boxes[members[i]], sum);
+    sum.add(boxes[members[i]]);
     around[i] = sum;
   }
   std::size_t kept = members.size();
   while (const std::size_t dwarfing = count_dwarfing(boxes, members, around, kept)) {
     kept -= dwarfing;
   }
-  for (std::size_t i = kept; i < members.size(); ++i) add(boxes[members[i]], site);
+  for (std::size_t i = kept; i < members.size(); ++i) site.add(boxes[members[i]]);
   members.resize(kept);
 }
 
@@ -115,7 +110,7 @@ void drop_strays(const Scene& scene, std::span<const Bounds> boxes,
       members.resize(i);
       return;
     }
-    add(next, rest);
+    rest.add(next);
     inside += triangles_of(scene, members[i]);
   }
 }
@@ -153,8 +148,8 @@ Subject find_subject(const World& world) {
     drop_strays(scene, boxes, members);
     drop_backdrops(boxes, members, subject.site);
   }
-  for (const std::uint32_t i : members) add(boxes[i], subject.bounds);
-  if (!members.empty()) add(subject.bounds, subject.site);
+  for (const std::uint32_t i : members) subject.bounds.add(boxes[i]);
+  if (!members.empty()) subject.site.add(subject.bounds);
   return subject;
 }
 

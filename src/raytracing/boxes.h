@@ -38,8 +38,7 @@ class Boxes {
  public:
   void add(const Bounds& box) {
     if (box.empty()) return;
-    around_.add(box.min);
-    around_.add(box.max);
+    around_.add(box);
     boxes_.push_back(box);
   }
   bool empty() const { return boxes_.empty(); }

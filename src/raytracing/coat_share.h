@@ -41,6 +41,22 @@ LAMBENT_FN float traced_coat_share(Reflectance surface) {
   return t * t * (3.0f - 2.0f * t);
 }
 
+// A coat that reflects at least the second share of a surface's light has rays at pixels whatever
+// its roughness, and one of less than the first share has none more for that; between them the
+// transition is linear. Gathered light reaches the base alone: without rays, rough metals would
+// show the cells of the field.
+const float kLastMinorCoat = 0.5f, kFirstMajorCoat = 0.9f;
+
+/// traced_coat_share() of a surface at a pixel.
+LAMBENT_FN float pixel_coat_share(Reflectance surface) {
+  if (surface.f90 <= 0.0f) return 0.0f;
+  float coat = luminance(surface.f0);
+  float both = coat + luminance(surface.diffuse);
+  float major = both > 0.0f ? coat / both : 0.0f;
+  return max(traced_coat_share(surface),
+             clamp((major - kLastMinorCoat) / (kFirstMajorCoat - kLastMinorCoat), 0.0f, 1.0f));
+}
+
 /// Density with which `emitter_samples` samples of emitters are taken to find one [1/sr].
 LAMBENT_FN float emitter_density(uint emitter_samples) {
   return kEmitterDensity * float(emitter_samples);

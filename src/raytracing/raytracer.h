@@ -89,11 +89,15 @@ class RayTracer {
   /// surfaces there, by color; 0 where one of them is opaque. For rays that cross glass, it is
   /// divided by the probability with which they do, so that t_max may end just before their hits.
   /// It is 0, too, where a ray stops_at_bends() and one of the surfaces scatters or refracts light.
-  /// Only for tracers with has_glass().
+  /// Of shadow rays, blended surfaces let 1 - coverage pass, without chance. Only for tracers that
+  /// dims_shadows().
   virtual void transmittances(std::span<const Ray> /*rays*/,
                               std::span<glm::vec3> /*through*/) const {
-    assert(!has_glass());
+    assert(!dims_shadows());
   }
+
+  /// Whether light passes some surface in part, which occlusions() does not tell.
+  virtual bool dims_shadows() const { return false; }
 
   /// Whether some surface transmits light.
   virtual bool has_glass() const { return false; }
@@ -128,7 +132,7 @@ class ShadowRays {
   void trace(const RayTracer& tracer, std::span<const Ray> rays) {
     occluded_.clear();
     through_.clear();
-    if (tracer.has_glass()) {
+    if (tracer.dims_shadows()) {
       through_.resize(rays.size());
       tracer.transmittances(rays, through_);
     } else {

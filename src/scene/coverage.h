@@ -84,6 +84,13 @@ LAMBENT_FN float covered_share(HitCoverage found) {
   return found.mode == kAlphaBlend ? clamp(found.alpha, 0.0f, 1.0f) : 1.0f;
 }
 
+/// Whether a surface dims a ray whose transmittance is asked for, by its covered_share(). Shadow
+/// rays need no chance. For rays that cross glass, which may end at any surface, chance has
+/// decided.
+LAMBENT_FN bool dims_ray(HitCoverage found, bool ray_crosses_glass) {
+  return found.mode == kAlphaBlend && !ray_crosses_glass;
+}
+
 /// Whether a triangle stops a ray with this mask that hits it at these barycentrics. Rays that
 /// carry a pixel's sample stop at all blended surfaces that cover anything: whether the sample ends
 /// there is found by ends_sample(), in the order of the surfaces. Blended surfaces up to the

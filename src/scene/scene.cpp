@@ -36,8 +36,7 @@ Bounds world_bounds(const Scene& scene) {
   for (const Instance& instance : scene.instances) {
     const Bounds own = instance_bounds(scene, instance);
     if (own.empty()) continue;
-    bounds.add(own.min);
-    bounds.add(own.max);
+    bounds.add(own);
   }
   return bounds;
 }

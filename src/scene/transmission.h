@@ -19,6 +19,11 @@ inline bool has_layers(const Material& material) {
   return any && !material.unlit && !material.lambert;
 }
 
+/// Whether light may pass the material in part, so that it dims shadow rays.
+inline bool dims_light(const Material& material) {
+  return material.alpha_mode == AlphaMode::blend || is_transmissive(material);
+}
+
 /// Whether every ray that hits the material ends there.
 inline bool stops_all_rays(const Material& material) {
   return material.alpha_mode == AlphaMode::opaque && !is_transmissive(material);

@@ -55,6 +55,30 @@ TEST(FirstLight, IsSunAndSkyForOpenScenes) {
   EXPECT_EQ(chosen(unlit("atrium")), FirstLight::sun);
 }
 
+TEST(FirstLight, IsASkyInProportionWhereSunsShineOutOfTheVoid) {
+  Scene scene = scene_of({box_mesh({-9, -1, -9}, {9, 0, 9}), box_mesh({-2, 0, -2}, {0, 3, 0}),
+                          box_mesh({3, 0, 1}, {5, 2, 3})});
+  Light& sun = scene.lights.emplace_back();
+  sun.type = Light::Type::directional;
+  sun.direction_ws = glm::normalize(glm::vec3(0.3f, -1.0f, 0.2f));
+  sun.intensity = glm::vec3(4.0f, 3.6f, 3.0f);  // a fifth of that of a clear afternoon
+  EXPECT_EQ(chosen(scene), FirstLight::sky);
+  const World world(scene);
+  const Camera camera = first_view(world).value().camera;
+  set_first_light(FirstLight::sky, world, camera, scene);
+  EXPECT_EQ(scene.lights.size(), 1u);
+  EXPECT_NEAR(scene.environment.radiance.b, 0.2f * 2.6f, 1e-4f);
+  EXPECT_EQ(choose_first_light(World(scene), camera), FirstLight::scene) << "it has a sky now";
+
+  // An object by itself stays before the black that its author left, and so does a lamp's light
+  Scene object = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
+  object.lights.push_back(sun);
+  EXPECT_EQ(chosen(object), FirstLight::scene);
+  scene.environment = {};
+  scene.lights[0].type = Light::Type::point;
+  EXPECT_EQ(chosen(scene), FirstLight::scene);
+}
+
 TEST(FirstLight, IsLampsInClosedRooms) {
   EXPECT_EQ(chosen(unlit("two-rooms")), FirstLight::lamps);
 }

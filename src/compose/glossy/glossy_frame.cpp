@@ -55,7 +55,7 @@ void find_coat_shares(GBuffer& pixels) {
   pixels.clearcoat_shares.clear();
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const bool shines = pixels.hit[i] != 0 && pixels.surfaces[i].gi_share > 0.0f;
-    pixels.coat_shares[i] = shines ? traced_coat_share(pixels.surfaces[i].reflectance) : 0.0f;
+    pixels.coat_shares[i] = shines ? pixel_coat_share(pixels.surfaces[i].reflectance) : 0.0f;
     if (!shines || !has_clearcoat(pixels.surfaces[i].reflectance.layers)) continue;
     pixels.clearcoat_shares.resize(pixels.size());
     pixels.clearcoat_shares[i] =

@@ -126,8 +126,7 @@ void IrradianceField::State::relocate_edited(const World& world, UpdateStatistic
       if (known == placement.edited_places.end()) {
         placement.edited_places.push_back({box, updates});
       } else {
-        known->box.add(box.min);
-        known->box.add(box.max);
+        known->box.add(box);
         known->update = updates;
       }
     }

@@ -62,6 +62,7 @@ void EmbreeRayTracer::finish(double* ms, Stopwatch& watch) {
   const Scene& scene = *slots_.scene;
   has_glass_ = std::any_of(scene.materials.begin(), scene.materials.end(),
                            [](const Material& material) { return is_transmissive(material); });
+  dims_shadows_ = std::any_of(scene.materials.begin(), scene.materials.end(), dims_light);
   has_blends_ =
       std::any_of(scene.materials.begin(), scene.materials.end(),
                   [](const Material& material) { return material.alpha_mode == AlphaMode::blend; });

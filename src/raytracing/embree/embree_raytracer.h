@@ -24,6 +24,7 @@ class EmbreeRayTracer final : public RayTracer {
   void occlusions(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const override;
   void transmittances(std::span<const Ray> rays, std::span<glm::vec3> through) const override;
   bool has_glass() const override { return has_glass_; }
+  bool dims_shadows() const override { return dims_shadows_; }
   AccelerationStatistics statistics() const override { return statistics_; }
   void update(const GeometryEdits& edits) override;
 
@@ -73,6 +74,7 @@ class EmbreeRayTracer final : public RayTracer {
   embree::SceneHandle world_;
   bool two_levels_ = false;
   bool has_glass_ = false;
+  bool dims_shadows_ = false;
   bool has_blends_ = false;
   AccelerationStatistics statistics_;
 };

@@ -46,11 +46,18 @@ void filter_see_through(const RTCFilterFunctionNArguments* args) {
     const float distance = RTCRayN_tfar(args->ray, args->N, lane);
     auto& query = *static_cast<Query*>(args->context);
     const vec2 barycentrics(hit.u, hit.v);
-    bool stops =
-        stops_ray(hit_coverage_at(scene, instance, hit.primID, barycentrics), hit.primID,
-                  barycentrics, distance, RTCRayN_mask(args->ray, args->N, lane), query.passed);
+    const HitCoverage coverage = hit_coverage_at(scene, instance, hit.primID, barycentrics);
     const Instance& placed = scene.instances[instance];
-    if (stops && is_transmissive(scene.materials[scene.meshes[placed.mesh].material])) {
+    const bool glass = is_transmissive(scene.materials[scene.meshes[placed.mesh].material]);
+    if (query.kind == Query::Kind::transmittance && !glass &&
+        dims_ray(coverage, crosses_glass(query.ray.mask))) {
+      query.through *= 1.0f - covered_share(coverage);
+      if (query.through != vec3(0.0f)) args->valid[lane] = 0;
+      continue;
+    }
+    bool stops = stops_ray(coverage, hit.primID, barycentrics, distance,
+                           RTCRayN_mask(args->ray, args->N, lane), query.passed);
+    if (stops && glass) {
       const vec3 normal(hit.Ng_x, hit.Ng_y, hit.Ng_z);
       const vec3 direction(RTCRayN_dir_x(args->ray, args->N, lane),
                            RTCRayN_dir_y(args->ray, args->N, lane),

@@ -15,7 +15,7 @@ void main() {
   vec3 sum = vec3(0.0f);
   for (uint slot = 0u; slot < args.slots; ++slot) {
     uint at = slot * args.count + i;
-    if (args.has_glass != 0u) {
+    if (args.dims_shadows != 0u) {
       sum += args.through.at[at] * args.unoccluded_irradiance.at[at];
     } else if (args.occluded.at[at] == 0u) {
       sum += args.unoccluded_irradiance.at[at];

@@ -12,11 +12,11 @@ layout(push_constant, scalar) uniform Push {
 
 /// The light of a slot that arrives.
 ReflectedPair arriving(uint at) {
-  if (args.has_glass == 0u && args.occluded.at[at] != 0u) {
+  if (args.dims_shadows == 0u && args.occluded.at[at] != 0u) {
     return ReflectedPair(vec3(0.0f), vec3(0.0f));
   }
   ReflectedPair pair = args.pairs.at[at];
-  if (args.has_glass != 0u) {
+  if (args.dims_shadows != 0u) {
     vec3 share = args.through.at[at];
     pair.diffuse *= share;
     pair.specular *= share;

@@ -43,7 +43,7 @@ void main() {
     pixel.flags = 0u;
     pixel.gi_share = surface.gi_share;
     if (args.traces_coats != 0u && surface.gi_share > 0.0f) {
-      pixel.coat_share = traced_coat_share(surface.reflectance);
+      pixel.coat_share = pixel_coat_share(surface.reflectance);
       pixel.clearcoat_share = traced_coat_share(clearcoat_alone(surface.reflectance.layers));
     }
   }

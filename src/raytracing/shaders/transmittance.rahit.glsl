@@ -16,11 +16,16 @@ hitAttributeEXT vec2 barycentrics;
 void main() {
   uint instance = uint(gl_InstanceCustomIndexEXT);
   uint triangle = uint(gl_PrimitiveID);
+  MaterialRecord material = material_of(args.scene, instance);
   HitCoverage coverage = hit_coverage_at(args.scene, instance, triangle, barycentrics);
+  if (dims_ray(coverage, light.crosses != 0u) && !is_transmissive(material)) {
+    light.through *= 1.0f - covered_share(coverage);
+    if (light.through != vec3(0.0f)) ignoreIntersectionEXT;
+    return;
+  }
   if (!stops_ray(coverage, triangle, barycentrics, gl_HitTEXT, kRayMeetsAll, kNothingPassed)) {
     ignoreIntersectionEXT;
   }
-  MaterialRecord material = material_of(args.scene, instance);
   if (!is_transmissive(material)) return;
   bool from_front = gl_HitKindEXT == gl_HitKindFrontFacingTriangleEXT;
   vec3 share = straight_share_at(args.scene, instance, triangle, barycentrics, from_front,

@@ -46,12 +46,15 @@ class DeviceTracer {
   /// See RayTracer::has_glass.
   virtual bool has_glass() const { return false; }
 
-  /// Records RayTracer::transmittances; only for tracers with has_glass(). `hits`: rays end just
+  /// See RayTracer::dims_shadows.
+  virtual bool dims_shadows() const { return false; }
+
+  /// Records RayTracer::transmittances; only for tracers that dims_shadows(). `hits`: rays end just
   /// before these; address 0: at their own ends. `through`: one share a ray, 1 for rays that are
   /// not traced.
   virtual void transmittances(vulkan::Recorder& /*recorder*/, const RayBatch& /*batch*/,
                               HitArray /*hits*/, Vec3Array /*through*/) const {
-    assert(!has_glass());
+    assert(!dims_shadows());
   }
 };
 

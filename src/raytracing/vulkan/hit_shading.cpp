@@ -107,7 +107,7 @@ void HitShading::trace_shadows(vulkan::Recorder& recorder, const DeviceStage& st
   RayBatch batch;
   batch.rays.address = shadow_ray_memory_.address();
   batch.count = chunk.count * chunk.all_slots();
-  if (stage.tracer.has_glass()) {
+  if (stage.tracer.dims_shadows()) {
     stage.tracer.transmittances(recorder, batch, {}, {occlusion_memory_.address()});
   } else {
     stage.tracer.occlusions(recorder, batch, {occlusion_memory_.address()});
@@ -117,7 +117,7 @@ void HitShading::trace_shadows(vulkan::Recorder& recorder, const DeviceStage& st
 
 CollectArguments HitShading::collecting(const DeviceStage& stage, const Chunk& chunk) const {
   CollectArguments arguments{};
-  arguments.has_glass = stage.tracer.has_glass() ? 1 : 0;
+  arguments.dims_shadows = stage.tracer.dims_shadows() ? 1 : 0;
   arguments.occluded.address = arguments.through.address = occlusion_memory_.address();
   arguments.first = chunk.first;
   arguments.count = chunk.count;

@@ -113,8 +113,8 @@ const uint kAddsSky = 2u;    ///< Into `specular`.
 /// Sums up the light that arrives, slot after slot.
 struct CollectArguments {
   UintArray occluded;
-  Vec3Array
-      through;  ///< Share of a slot's light that arrives; replaces `occluded` where has_glass is 1.
+  /// Share of a slot's light that arrives; replaces `occluded` where dims_shadows is 1.
+  Vec3Array through;
   Vec3Array unoccluded_irradiance;
   ReflectedPairArray pairs;
   Vec3Array irradiance;  ///< One for each point, from point `first` on.
@@ -132,7 +132,7 @@ struct CollectArguments {
   uint count;
   uint slots;        ///< Without that of the sky.
   uint exact_slots;  ///< Number of first slots, whose light goes into `diffuse` and `specular`.
-  uint has_glass;
+  uint dims_shadows;
   uint sky_slots;  ///< kNoSkySlot, kStoresSky or kAddsSky.
 };
 

@@ -152,6 +152,7 @@ void VulkanRayTracer::tell_sizes() {
   statistics_.bytes = acceleration_->bytes();
   has_glass_ = std::any_of(scene_.materials.begin(), scene_.materials.end(),
                            [](const Material& material) { return is_transmissive(material); });
+  dims_shadows_ = std::any_of(scene_.materials.begin(), scene_.materials.end(), dims_light);
 }
 
 void VulkanRayTracer::update(const GeometryEdits& edits) {

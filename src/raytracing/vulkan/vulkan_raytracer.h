@@ -28,6 +28,7 @@ class VulkanRayTracer final : public RayTracer, public DeviceTracer {
   void occlusions(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const override;
   void transmittances(std::span<const Ray> rays, std::span<glm::vec3> through) const override;
   bool has_glass() const override { return has_glass_; }
+  bool dims_shadows() const override { return dims_shadows_; }
   std::size_t batch_rays() const override;
   AccelerationStatistics statistics() const override { return statistics_; }
   /// To be called after the device's scene was updated.
@@ -63,6 +64,7 @@ class VulkanRayTracer final : public RayTracer, public DeviceTracer {
   std::unique_ptr<SceneAcceleration> acceleration_;
   AccelerationStatistics statistics_;
   bool has_glass_ = false;
+  bool dims_shadows_ = false;
   mutable std::mutex staging_mutex_;
   mutable std::vector<std::unique_ptr<Staging>> idle_staging_;
 };

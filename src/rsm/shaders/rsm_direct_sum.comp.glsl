@@ -24,7 +24,7 @@ void main() {
   for (int slot = 0; slot < args.slots; ++slot) {
     uint place = uint(slot) * invocation_count() + invocation_index();
     ReflectedPair pair = args.pairs.at[place];
-    vec3 arrives = args.has_glass != 0u ? args.through.at[place]
+    vec3 arrives = args.dims_shadows != 0u ? args.through.at[place]
                                         : vec3(args.occluded.at[place] != 0u ? 0.0f : 1.0f);
     share.sent += pair.diffuse + pair.specular;
     share.arrived += arrives * (pair.diffuse + pair.specular);

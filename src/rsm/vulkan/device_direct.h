@@ -41,7 +41,7 @@ struct DirectRaysArguments {
 struct DirectSumArguments {
   ReflectedPairArray pairs;
   UintArray occluded;
-  Vec3Array through;          ///< Replaces `occluded` where has_glass is 1.
+  Vec3Array through;          ///< Replaces `occluded` where dims_shadows is 1.
   ReflectedPairArray direct;  ///< Result for the view where lights are not shared out.
   LightShareArray shares;     ///< Result for the view where lights are shared out.
   int width;
@@ -50,7 +50,7 @@ struct DirectSumArguments {
   int slots;
   uint is_first;  ///< 1: sums start with these slots.
   uint is_shared;
-  uint has_glass;
+  uint dims_shadows;
   uint unused;
 };
 

@@ -118,12 +118,12 @@ void RsmDirectVulkan::record_sum(vulkan::Recorder& recorder, const DeviceStage& 
                                  int first_row, int rows, int first_slot, int slots,
                                  const vulkan::Buffer& target, bool is_share) {
   const Groups groups = this->groups(rows);
-  const bool glass = stage.tracer.has_glass();
+  const bool dims = stage.tracer.dims_shadows();
   recorder.barrier();
   RayBatch batch;
   batch.rays = {shadow_rays_.address()};
   batch.count = groups.invocations() * static_cast<std::uint32_t>(slots);
-  if (glass) {
+  if (dims) {
     stage.tracer.transmittances(recorder, batch, {}, {arrived_.address()});
   } else {
     stage.tracer.occlusions(recorder, batch, {arrived_.address()});
@@ -140,7 +140,7 @@ void RsmDirectVulkan::record_sum(vulkan::Recorder& recorder, const DeviceStage& 
                                      slots,
                                      first_slot == 0 ? 1u : 0u,
                                      is_share ? 1u : 0u,
-                                     glass ? 1u : 0u,
+                                     dims ? 1u : 0u,
                                      0};
   recorder.run(kernels().sum, summed, groups.width, groups.height);
   recorder.barrier();

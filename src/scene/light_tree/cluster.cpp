@@ -66,8 +66,7 @@ void LightCluster::add(const LightCluster& other) {
     *this = other;
     return;
   }
-  box.add(other.box.min);
-  box.add(other.box.max);
+  box.add(other.box);
   cone = join(cone, other.cone);
   intensity += other.intensity;
   mean += other.mean;

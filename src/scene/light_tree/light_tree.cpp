@@ -76,8 +76,7 @@ class Splitter {
       if (with_cones || bin.empty) {
         bin.add(lights_[light]);
       } else {
-        bin.box.add(lights_[light].box.min);
-        bin.box.add(lights_[light].box.max);
+        bin.box.add(lights_[light].box);
         bin.intensity += lights_[light].intensity;
       }
     }
