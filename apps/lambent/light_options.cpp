@@ -82,6 +82,13 @@ FirstLight light_of_name(const std::string& name) {
                            : FirstLight::scene;
 }
 
+// With suns, `--light sky` can set up a sky in proportion to them.
+bool has_sun(const Scene& scene) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+    return light.type == Light::Type::directional && light.intensity != glm::vec3(0.0f);
+  });
+}
+
 std::string describe(FirstLight light, const Scene& scene, bool has_dome) {
   switch (light) {
     case FirstLight::studio:
@@ -97,11 +104,9 @@ std::string describe(FirstLight light, const Scene& scene, bool has_dome) {
   }
   if (has_dome) return "the scene's, with the dome around it as its sky";
   // glTF files have no sky: with only a sun, shadows and windows would be black
-  const bool has_sun = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& each) {
-    return each.type == Light::Type::directional;
-  });
   const bool has_sky = scene.environment.radiance != glm::vec3(0.0f);
-  return has_sun && !has_sky ? "the scene's, under a black sky (--sky lights it)" : "the scene's";
+  return has_sun(scene) && !has_sky ? "the scene's, under a black sky (--sky lights it)"
+                                    : "the scene's";
 }
 
 }  // namespace
@@ -131,6 +136,12 @@ Expected<void> add_asked_light(const LightOptions& options, Scene& scene) {
                 "'" + options.light +
                     "' brings its own lights: leave out --sun, --sky and "
                     "--environment, or take --light scene or none");
+  }
+  if (options.light == "sky" && !has_sun(scene)) {
+    return fail(
+        "--light", "",
+        "'sky' is in proportion to the scene's suns, and it has none: take sun, which brings "
+        "both");
   }
   if (options.light == "none") {
     scene.lights.clear();

@@ -38,7 +38,7 @@ bool sees_a_surface(const World& world, const Camera& camera, float aspect);
 /// Light for scenes that have none.
 enum class FirstLight : std::uint8_t {
   scene,   ///< The scene's own light.
-  sky,     ///< The scene's lights under a sky in proportion to its suns: for open scenes.
+  sky,     ///< The scene's lights under a sky in proportion to its suns, black if it has none.
   studio,  ///< Soft boxes as key, fill and rim, in a neutral surrounding: for objects.
   sun,     ///< Sun and sky: for open scenes.
   lamps,   ///< Lamps below the ceiling: for closed rooms.
@@ -54,8 +54,8 @@ std::string_view name_of(FirstLight light);
 FirstLight choose_first_light(const World& world, const Camera& camera);
 
 /// Replaces the scene's lights and environment by those of `light`, set up for the camera's view;
-/// emissive surfaces are not changed, and FirstLight::scene changes nothing. `scene` is the world's
-/// scene; call World::update afterwards.
+/// emissive surfaces are not changed, FirstLight::sky replaces the environment alone, and
+/// FirstLight::scene changes nothing. `scene` is the world's scene; call World::update afterwards.
 void set_first_light(FirstLight light, const World& world, const Camera& camera, Scene& scene);
 
 /// Removes the sky that a scene brings as a mesh: a dome or a box of emissive or unlit triangles

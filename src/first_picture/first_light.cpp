@@ -36,6 +36,9 @@ constexpr float kMinCourt = 0.05f;
 // black.
 constexpr float kSkyThroughWindows = 0.5f;
 
+// A site that is this much larger than its subject, by diagonals, is the ground of a scene.
+constexpr float kMinSite = 2.0f;
+
 // The sky is missing where at least this share of what the camera sees is empty.
 constexpr float kMinEmptyShare = 0.02f;
 
@@ -146,7 +149,7 @@ glm::vec3 best_sun_way(const World& world, const SeenView& view) {
 bool is_outdoors(const World& world) {
   const Subject subject = find_subject(world);
   if (subject.bounds.empty()) return false;
-  const bool dwarfed = diagonal(subject.site) > 2.0f * diagonal(subject.bounds);
+  const bool dwarfed = diagonal(subject.site) > kMinSite * diagonal(subject.bounds);
   return dwarfed || has_ground(world, subject.bounds);
 }
 

@@ -41,13 +41,13 @@ LAMBENT_FN float traced_coat_share(Reflectance surface) {
   return t * t * (3.0f - 2.0f * t);
 }
 
-// A coat that reflects at least the second share of a surface's light has rays at pixels whatever
-// its roughness, and one of less than the first share has none more for that; between them the
-// transition is linear. Gathered light reaches the base alone: without rays, rough metals would
-// show the cells of the field.
+// At pixels, gathered light reaches the base of a surface alone. Rough metals have no base, and the
+// field's light on their coats would show its cells. So a coat that reflects most of a surface's
+// light, kFirstMajorCoat of it or more at normal incidence, has rays whatever its roughness. For a
+// coat of kLastMinorCoat or less, roughness alone decides; between the two the share is linear.
 const float kLastMinorCoat = 0.5f, kFirstMajorCoat = 0.9f;
 
-/// traced_coat_share() of a surface at a pixel.
+/// Share of the light of a pixel's coat that comes from rays of its own, 0 to 1.
 LAMBENT_FN float pixel_coat_share(Reflectance surface) {
   if (surface.f90 <= 0.0f) return 0.0f;
   float coat = luminance(surface.f0);

@@ -36,7 +36,8 @@ const uint kKindMaskBits = 0xFu, kSampleMaskKind = 1u;
 const uint kSampleMaskShift = 4u, kSampleMaskBits = 0xFFu;
 const uint kPixelMaskShift = 12u;
 
-/// A mask that meets all instances and carries no sample.
+/// A mask that meets all instances and carries no sample: kRayMeetsAll of raytracing/ray_records.h,
+/// which this folder does not include. A test holds the two against each other.
 const uint kChanceMask = 0xFFFFFFFFu;
 
 LAMBENT_FN uint sample_mask(uint pixel, uint sample_index, uint seed) {
@@ -115,15 +116,15 @@ const float kSameDistance = 4.8e-7f;
 const float kNothingPassed = -1.0f;
 
 /// The blended surfaces that a pixel's sample has met, front to back. The sample ends at the first
-/// surface at which the share of the pixel that all surfaces so far cover exceeds its number. Of
-/// the pixel's samples, whose numbers lie in equal parts, each surface so gets the share that it
-/// has in the pixel, however many others are before it and wherever in the pixel the samples are.
+/// surface where the share of the pixel that the surfaces up to it cover exceeds its number. The
+/// numbers of a pixel's samples lie in equal parts, so each surface receives the share of samples
+/// that it covers of the pixel, however many surfaces are before it.
 struct OrderedCoverage {
   uint ray_mask;  ///< Of the ray that goes on.
   float number;   ///< The sample's, 0 to 1.
   float open;     ///< Share of the pixel that the surfaces so far leave uncovered.
-  float passed;   ///< Blended surfaces up to here have been passed [m].
-  uint surfaces;  ///< How many.
+  float passed;   ///< Distance up to which blended surfaces have been passed [m].
+  uint surfaces;  ///< Number of surfaces that have been passed.
 };
 
 LAMBENT_FN OrderedCoverage start_coverage(uint ray_mask) {

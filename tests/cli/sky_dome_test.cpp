@@ -74,5 +74,42 @@ TEST(SkyDomes, GiveWayToAnotherSky) {
   EXPECT_GT(mean_of(red).x, 0.3);
 }
 
+// A file's sun outdoors gets a sky in the first picture, in proportion to it, unless the scene's
+// light alone is asked for.
+TEST(Skies, AreAddedToSunsOutdoors) {
+  const test::TemporaryDirectory directory;
+  Scene scene = test::scene_of({test::box_mesh({-9, -1, -9}, {9, 0, 9}),
+                                test::box_mesh({-2, 0, -2}, {0, 3, 0}),
+                                test::box_mesh({3, 0, 1}, {5, 2, 3})});
+  const std::string without_sun = directory.file("dark.glb"), with_sun = directory.file("sun.glb");
+  ASSERT_TRUE(scenes::write_glb(scene, without_sun));
+  Light& sun = scene.lights.emplace_back();
+  sun.type = Light::Type::directional;
+  sun.direction_ws = glm::normalize(glm::vec3(0.3f, -1.0f, 0.2f));
+  sun.intensity = glm::vec3(4.0f, 3.6f, 3.0f);  // a fifth of that of a clear afternoon
+  ASSERT_TRUE(scenes::write_glb(scene, with_sun));
+
+  // The view shows little but the sky
+  const std::string upwards =
+      " --method direct --size 16x16 --eye=0,20,30 --target=0,60,0 --fov 20 -o ";
+  const auto sky_of = [&](const std::string& options, const std::string& words) {
+    const std::string picture = directory.file("sky.exr");
+    const auto shown = test::run_program("render " + with_sun + upwards + picture + options);
+    EXPECT_EQ(shown.status, 0) << shown.errors;
+    EXPECT_THAT(shown.errors, HasSubstr(words));
+    return mean_of(picture);
+  };
+  const glm::dvec3 added = sky_of("", "under a sky in proportion to its suns");
+  EXPECT_NEAR(added.x, 0.2 * 1.5, 1e-3);
+  EXPECT_NEAR(added.z, 0.2 * 2.6, 1e-3);
+  EXPECT_EQ(sky_of(" --light sky", "under a sky in proportion to its suns"), added);
+  EXPECT_EQ(sky_of(" --light scene", "under a black sky"), glm::dvec3(0.0));
+
+  const auto refused = test::run_program("render " + without_sun + upwards +
+                                         directory.file("none.exr") + " --light sky");
+  EXPECT_NE(refused.status, 0);
+  EXPECT_THAT(refused.errors, HasSubstr("it has none"));
+}
+
 }  // namespace
 }  // namespace lambent::sky_dome_test

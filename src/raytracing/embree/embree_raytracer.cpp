@@ -63,9 +63,6 @@ void EmbreeRayTracer::finish(double* ms, Stopwatch& watch) {
   has_glass_ = std::any_of(scene.materials.begin(), scene.materials.end(),
                            [](const Material& material) { return is_transmissive(material); });
   dims_shadows_ = std::any_of(scene.materials.begin(), scene.materials.end(), dims_light);
-  has_blends_ =
-      std::any_of(scene.materials.begin(), scene.materials.end(),
-                  [](const Material& material) { return material.alpha_mode == AlphaMode::blend; });
   statistics_.triangles = triangle_count(scene);
   statistics_.instances = scene.instances.size();
   statistics_.bytes = static_cast<std::size_t>(std::max<std::int64_t>(bytes_, 0));

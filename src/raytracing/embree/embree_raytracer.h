@@ -75,7 +75,6 @@ class EmbreeRayTracer final : public RayTracer {
   bool two_levels_ = false;
   bool has_glass_ = false;
   bool dims_shadows_ = false;
-  bool has_blends_ = false;
   AccelerationStatistics statistics_;
 };
 

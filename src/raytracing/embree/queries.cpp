@@ -72,7 +72,7 @@ void EmbreeRayTracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hit
   assert(rays.size() == hits.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
     hits[i] = closest_beyond(rays[i], kNothingPassed);
-    if (has_blends_ && carries_sample(rays[i].mask)) hits[i] = end_of_sample(rays[i], hits[i]);
+    if (dims_shadows_ && carries_sample(rays[i].mask)) hits[i] = end_of_sample(rays[i], hits[i]);
   }
 }
 

@@ -25,7 +25,7 @@ void main() {
     uint place = uint(slot) * invocation_count() + invocation_index();
     ReflectedPair pair = args.pairs.at[place];
     vec3 arrives = args.dims_shadows != 0u ? args.through.at[place]
-                                        : vec3(args.occluded.at[place] != 0u ? 0.0f : 1.0f);
+                                          : vec3(args.occluded.at[place] != 0u ? 0.0f : 1.0f);
     share.sent += pair.diffuse + pair.specular;
     share.arrived += arrives * (pair.diffuse + pair.specular);
     direct.diffuse += arrives * pair.diffuse;
