@@ -87,6 +87,7 @@ void FramePassesVulkan::gather() {
   shading.salt = sample_;
   shading.seed = request_->settings.seed;
   shading.candidates = kGatherCandidates;
+  shading.follow_mirrors = true;
 
   for (std::uint32_t first = 0; first < pixels_; first += chunk) {
     const std::uint32_t count = std::min(chunk, pixels_ - first), rays = count * rays_per_pixel;
@@ -113,11 +114,8 @@ void FramePassesVulkan::gather() {
           to, stage(), {{m.gathering_rays.address()}, hits, rays}, {m.gathering_indices.address()},
           rays_per_pixel, shading,
           {{m.gathered_points.address()}, {m.gathered.address()}, {m.gathered_direct.address()}});
-      const RayQueriesArguments asked = {{m.gathered_points.address()},
-                                         {m.gathering_rays.address()},
-                                         {m.queries.address()},
-                                         rays,
-                                         0u};
+      const RayQueriesArguments asked = {
+          {m.gathered_points.address()}, {m.queries.address()}, rays, 0u};
       to.run(kernels_.ray_queries, asked, rays);
     });
     look_up("gather", *request_->sources.field, m.queries, rays, CorrectionUse::picked,

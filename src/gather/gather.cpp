@@ -10,6 +10,7 @@
 
 #include "core/parallel.h"
 #include "field/field_access.h"
+#include "field/lookup/query_at.h"
 #include "gather/gather_math.h"
 #include "raytracing/shade_hits.h"
 #include "raytracing/world_access.h"
@@ -62,8 +63,7 @@ class GatherChunk {
     std::vector<FieldQuery> queries(rays_.size());
     std::vector<vec3> from_field(rays_.size());
     for (std::size_t i = 0; i < rays_.size(); ++i) {
-      queries[i] = {shaded_[i].point.position_ws, shaded_[i].point.normal_ws, -rays_[i].direction,
-                    distance(shaded_[i].point.position_ws, rays_[i].origin)};
+      queries[i] = query_at(shaded_[i].point);
     }
     look_up_irradiance(field, queries, CorrectionUse::picked, from_field, world_);
     const std::span<const vec3> known = request_.known;
@@ -136,6 +136,7 @@ std::uint64_t gather_irradiance(const World& world, const IrradianceField& field
   shading.salt = request.sample;
   shading.seed = request.seed;
   shading.candidates = kGatherCandidates;
+  shading.follow_mirrors = true;
   std::atomic<std::uint64_t> traced = 0;
   parallel_chunks(request.seen.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     GatherChunk chunk(world, request, begin, end);

@@ -28,7 +28,6 @@ struct GatherRaysArguments {
 /// Writes the field queries at the hits of rays.
 struct RayQueriesArguments {
   LitPointArray points;
-  RayArray rays;
   QueryArray queries;
   uint count;
   uint padding;

@@ -39,6 +39,12 @@ struct RayRecord {
   uint mask;          ///< Instances it can hit: kRayMeetsAll, ...; 0: none, it is not traced.
 };
 
+/// A ray that is not traced.
+LAMBENT_FN RayRecord no_ray() {
+  RayRecord none = {vec3(0.0f), 0.0f, vec3(0.0f, 0.0f, 1.0f), 0.0f, 0u};
+  return none;
+}
+
 /// Bits of the distance of a ray that hit nothing. Read as a float they are infinity.
 const uint kMissedDistanceBits = 0x7F800000u;
 

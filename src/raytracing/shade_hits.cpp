@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 #include "core/simd.h"
+#include "raytracing/mirrors/mirror_math.h"
 #include "raytracing/surface.h"
 #include "raytracing/world_access.h"
 #include "scene/environment_sampling.h"
+#include "shared/rays.h"
 
 namespace lambent {
 namespace {
@@ -41,9 +44,14 @@ LAMBENT_SHADING_KERNEL void queue_direct_light(const World& world,
 
 /// Stores the part of a surface's shading that needs no light.
 LAMBENT_SHADING_KERNEL void store_surface(const Surface& surface, const glm::vec3& direction,
-                                          float max_albedo, uint from_inside, ShadedHit& result) {
-  result.point = {surface.position_ws, surface.normal_ws, surface.geometric_normal_ws,
-                  encode_albedo_shape(surface.reflectance), -direction};
+                                          float distance, float max_albedo, uint from_inside,
+                                          ShadedHit& result) {
+  result.point = {surface.position_ws,
+                  surface.normal_ws,
+                  surface.geometric_normal_ws,
+                  encode_albedo_shape(surface.reflectance),
+                  -direction,
+                  distance};
   result.surface = shaded_surface(surface, direction, max_albedo, from_inside);
 }
 
@@ -77,10 +85,13 @@ std::size_t direct_irradiance(const World& world, std::span<const DirectLightQue
   return scratch.shadow_rays.size();
 }
 
-std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<const Hit> hits,
-                       const ShadeHitsSettings& settings, std::size_t first_index,
-                       ShadeHitsScratch& scratch, std::span<ShadedHit> shaded) {
-  assert(rays.size() == hits.size() && rays.size() == shaded.size());
+namespace {
+
+/// Shades the hits of rays, whose numbers among all rays are `indices`. Returns the number of
+/// shadow rays traced.
+std::size_t shade_surfaces(const World& world, std::span<const Ray> rays, std::span<const Hit> hits,
+                           const ShadeHitsSettings& settings, std::span<const std::size_t> indices,
+                           ShadeHitsScratch& scratch, std::span<ShadedHit> shaded) {
   const Scene& scene = world.scene();
   scratch.queries.clear();
   scratch.hits.clear();
@@ -91,7 +102,7 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
   for (std::size_t i = 0; i < rays.size(); ++i) {
     ShadedHit& result = shaded[i];
     const glm::vec3& direction = rays[i].direction;
-    result = {{rays[i].origin, -direction, -direction}, {}, glm::vec3(0.0f)};
+    result = {{rays[i].origin, -direction, -direction, 0u, -direction}, {}, glm::vec3(0.0f)};
     if (hits[i].missed()) {
       result.surface = shaded_sky(sky_radiance(scene.environment, direction));
       if (glass) {
@@ -105,7 +116,8 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
         surface_at(scene, rays[i], hits[i], settings.cone_width * hits[i].distance);
     const bool from_inside =
         settings.solid_sides != nullptr && settings.solid_sides->is_solid(hits[i]);
-    store_surface(surface, direction, settings.max_albedo, from_inside ? 1u : 0u, result);
+    store_surface(surface, direction, hits[i].distance, settings.max_albedo, from_inside ? 1u : 0u,
+                  result);
 
     if (glass) {
       // Rays that a pane stopped also stand for those that it let pass
@@ -121,7 +133,7 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
 
     // Queue points that reflect direct light
     if (result.surface.albedo_over_pi == glm::vec3(0.0f)) continue;
-    scratch.queries.push_back({result.point, first_index + i});
+    scratch.queries.push_back({result.point, indices[i]});
     scratch.hits.push_back(i);
   }
 
@@ -132,6 +144,73 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
     shaded[scratch.hits[i]].direct_irradiance = scratch.direct[i];
   }
   return shadow_rays;
+}
+
+/// Traces the rays that go on at mirrors, so far `mirrors` one after the other, and merges what
+/// they find into the hits. Returns the number of rays traced, 0 where none goes on.
+std::size_t follow_mirrors(const World& world, std::span<const Ray> rays, std::span<const Hit> hits,
+                           const ShadeHitsSettings& settings, std::size_t first_index, uint mirrors,
+                           ShadeHitsScratch& scratch, std::span<ShadedHit> shaded) {
+  ShadeHitsScratch::Reflected& reflected = scratch.reflected;
+  reflected.from.clear();
+  reflected.rays.clear();
+  scratch.indices.clear();
+  const std::uint32_t salt = salt_behind(settings.salt, mirrors + 1);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const LitPoint& point = shaded[i].point;
+    // Rays that met no mirror before have none behind it
+    if (mirrors > 0 && shaded[i].surface.reflected_at <= 0.0f) continue;
+    if (!goes_on(shaded[i].surface, point.albedo_shape, point.normal_ws, point.to_viewer_ws)) {
+      continue;
+    }
+    RandomStream random =
+        make_random_stream(static_cast<uint>(first_index + i), salt, settings.seed);
+    reflected.from.push_back(i);
+    reflected.rays.push_back(
+        {offset_ray_origin(point.position_ws, point.geometric_normal_ws), 0.0f,
+         sample_mirror(point.albedo_shape, point.normal_ws, point.geometric_normal_ws,
+                       point.to_viewer_ws, next_uniform2(random)),
+         kInfiniteDistance, rays[i].mask});
+    scratch.indices.push_back(first_index + i);
+  }
+  if (reflected.rays.empty()) return 0;
+
+  // Shade what the mirrors show
+  reflected.hits.resize(reflected.rays.size());
+  reflected.shaded.resize(reflected.rays.size());
+  tracer_of(world).closest_hits(reflected.rays, reflected.hits);
+  ShadeHitsSettings behind = settings;
+  behind.salt = salt;
+  const std::size_t shadow_rays = shade_surfaces(world, reflected.rays, reflected.hits, behind,
+                                                 scratch.indices, scratch, reflected.shaded);
+  for (std::size_t k = 0; k < reflected.from.size(); ++k) {
+    const std::size_t i = reflected.from[k];
+    const ShadedHit& shown = reflected.shaded[k];
+    const LitHit both = shown_by_mirror({shaded[i].surface, shaded[i].direct_irradiance},
+                                        {shown.surface, shown.direct_irradiance}, hits[i].distance);
+    shaded[i] = {shown.point, both.hit, both.irradiance};
+  }
+  return reflected.rays.size() + shadow_rays;
+}
+
+}  // namespace
+
+std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<const Hit> hits,
+                       const ShadeHitsSettings& settings, std::size_t first_index,
+                       ShadeHitsScratch& scratch, std::span<ShadedHit> shaded) {
+  assert(rays.size() == hits.size() && rays.size() == shaded.size());
+  scratch.indices.resize(rays.size());
+  std::iota(scratch.indices.begin(), scratch.indices.end(), first_index);
+  std::size_t traced =
+      shade_surfaces(world, rays, hits, settings, scratch.indices, scratch, shaded);
+  if (!settings.follow_mirrors) return traced;
+  for (uint mirrors = 0; mirrors < kMaxMirrors; ++mirrors) {
+    const std::size_t followed =
+        follow_mirrors(world, rays, hits, settings, first_index, mirrors, scratch, shaded);
+    if (followed == 0) break;
+    traced += followed;
+  }
+  return traced;
 }
 
 }  // namespace lambent

@@ -14,7 +14,8 @@
 namespace lambent {
 
 /// A ray's hit, with its direct light. Where the ray left the scene, the point is the ray's origin
-/// with normals against its direction.
+/// with normals against its direction. Where the ray met a mirror and went on, the point is the one
+/// that the mirror shows, seen from the mirror.
 struct ShadedHit {
   LitPoint point;
   ShadedHitRecord surface;
@@ -38,7 +39,8 @@ struct ShadeHitsSettings {
   /// Rays that hit a side that bounds solid matter come from inside it and are discounted; null:
   /// all rays count. Must outlive the shading.
   const SolidSides* solid_sides = nullptr;
-  std::uint32_t salt = 0;  ///< Salt of the random numbers; a hit's index makes them unique.
+  bool follow_mirrors = false;  ///< Rays go on at mirrors, see mirrors/mirror_math.h.
+  std::uint32_t salt = 0;       ///< Salt of the random numbers; a hit's index makes them unique.
   std::uint32_t seed = 1;
 };
 
@@ -60,8 +62,16 @@ struct ShadeHitsScratch {
   std::vector<Ray> shadow_rays;
   std::vector<PendingLight> pending;
   ShadowRays shadows;
-  std::vector<Ray> to_hits;        // the rays, each ending at its hit
-  std::vector<glm::vec3> through;  // share of light that passes along them
+  std::vector<Ray> to_hits;          // the rays, each ending at its hit
+  std::vector<glm::vec3> through;    // share of light that passes along them
+  std::vector<std::size_t> indices;  // of the rays among all, for their random numbers
+  /// Rays that mirrors reflect, and the hits of `shaded` from which they come.
+  struct Reflected {
+    std::vector<std::size_t> from;
+    std::vector<Ray> rays;
+    std::vector<Hit> hits;
+    std::vector<ShadedHit> shaded;
+  } reflected;
 };
 
 /// Direct irradiance [W/m^2] at points, the same as shade_hits finds for a hit of the same index.
@@ -71,7 +81,7 @@ std::size_t direct_irradiance(const World& world, std::span<const DirectLightQue
                               std::span<glm::vec3> irradiance);
 
 /// Shades the hits of rays; all spans have the same length. `first_index` is the index of the first
-/// ray among all. Single-threaded. Returns the number of shadow rays traced.
+/// ray among all. Single-threaded. Returns the number of rays traced: to lights, and from mirrors.
 std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<const Hit> hits,
                        const ShadeHitsSettings& settings, std::size_t first_index,
                        ShadeHitsScratch& scratch, std::span<ShadedHit> shaded);

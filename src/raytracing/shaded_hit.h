@@ -9,10 +9,9 @@
 LAMBENT_BEGIN
 
 // Flags of ShadedHitRecord and PixelSurfaceRecord.
-const uint kSurfaceMissed = 1u;      ///< The ray left the scene.
-const uint kSurfaceDiscounted = 2u;  ///< The ray hit a side that bounds solid matter: it does not
-
-///< count.
+const uint kSurfaceMissed = 1u;  ///< The ray left the scene.
+/// The ray hit a side that bounds solid matter: it does not count.
+const uint kSurfaceDiscounted = 2u;
 /// Lights behind the surface are sampled, see samples_lights_behind().
 const uint kSurfaceSamplesBehind = 4u;
 // Rays that gather a hemisphere's light have cones this wide per metre over the square root of
@@ -26,11 +25,14 @@ struct ShadedHitRecord {
   uint material;        ///< Index into Scene::materials; 0 where the ray left the scene.
   uint flags;
   float gi_share;  ///< See Surface; 0 where the ray left the scene.
+  /// Where the ray met a mirror (mirrors/mirror_math.h) and went on: the mirror's distance from the
+  /// ray's origin [m]. The rest describes what the mirror shows. 0: the ray met none.
+  float reflected_at;
 };
 
 /// The record of a ray that left the scene.
 LAMBENT_FN ShadedHitRecord shaded_sky(vec3 sky_radiance) {
-  ShadedHitRecord hit = {vec3(0.0f), sky_radiance, 0u, kSurfaceMissed, 0.0f};
+  ShadedHitRecord hit = {vec3(0.0f), sky_radiance, 0u, kSurfaceMissed, 0.0f, 0.0f};
   return hit;
 }
 
@@ -38,7 +40,7 @@ LAMBENT_FN ShadedHitRecord shaded_sky(vec3 sky_radiance) {
 /// `from_inside` 1: the ray hit a side that bounds solid matter, and is discounted.
 LAMBENT_FN ShadedHitRecord shaded_surface(Surface surface, vec3 direction_ws, float max_albedo,
                                           uint from_inside) {
-  ShadedHitRecord hit = {vec3(0.0f), vec3(0.0f), surface.material, kSurfaceDiscounted, 0.0f};
+  ShadedHitRecord hit = {vec3(0.0f), vec3(0.0f), surface.material, kSurfaceDiscounted, 0.0f, 0.0f};
   if (from_inside != 0u) return hit;
   hit.flags = 0u;
   hit.gi_share = surface.gi_share;

@@ -9,6 +9,7 @@
 #include "core/image/metrics.h"
 #include "lambent/renderer.h"
 #include "reference/path_tracer.h"
+#include "scenes/builtin.h"
 #include "shared/constants.h"
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"
@@ -24,6 +25,7 @@ constexpr int kUpdates = 4;
 // mean and a tenth of blocks at most.
 constexpr int kSamples = 128;
 constexpr int kWalls = 0, kLamp = 1;
+constexpr int kCornellMaterials = 4;
 
 /// A room of 6 by 3 by 5 m with a lamp below its ceiling and a box on its floor.
 struct Room {
@@ -75,9 +77,8 @@ Scene furnish(const Room& room) {
   return scene;
 }
 
-Metrics compare_with_reference(const Room& room) {
-  const test::Stage stage(furnish(room));
-  const Camera camera = look_at({5.6f, 1.7f, 4.6f}, {1.5f, 1.1f, 0.8f}, 75.0f * kPi / 180.0f);
+Metrics compare_with_reference(Scene scene, const Camera& camera) {
+  const test::Stage stage(std::move(scene));
   ReferenceSettings settings;
   settings.width = kWidth;
   settings.height = kHeight;
@@ -101,12 +102,17 @@ Metrics compare_with_reference(const Room& room) {
   return metrics;
 }
 
-void expect_like_reference(const Room& room) {
-  const Metrics metrics = compare_with_reference(room);
+void expect_like_reference(Scene scene, const Camera& camera) {
+  const Metrics metrics = compare_with_reference(std::move(scene), camera);
   EXPECT_NEAR(metrics.mean_ratio, 1.0, 0.03);
   EXPECT_LE(*metrics.noise_corrected_relative_rmse, 0.12);
   EXPECT_GE(metrics.blocks.darkest_spot, 0.6);
   EXPECT_LE(metrics.blocks.brightest_spot, 1.6);
+}
+
+void expect_like_reference(const Room& room) {
+  expect_like_reference(furnish(room),
+                        look_at({5.6f, 1.7f, 4.6f}, {1.5f, 1.1f, 0.8f}, 75.0f * kPi / 180.0f));
 }
 
 TEST(UnseenRoom, OfThinWallsIsLitAsTheReferenceLightsIt) {
@@ -127,6 +133,20 @@ TEST(UnseenRoom, OfThickWallsWoundBothWaysIsLitAsTheReferenceLightsIt) {
 
 TEST(UnseenRoom, WithAPanelSeenFromBehindIsLitAsTheReferenceLightsIt) {
   expect_like_reference({.panel = true});
+}
+
+TEST(UnseenRoom, UnderAMirrorIsLitAsTheReferenceLightsIt) {
+  Scene scene = scenes::make("cornell").value();
+  Material mirror;
+  mirror.base_color = glm::vec4(0.95f, 0.95f, 0.95f, 1.0f);
+  mirror.roughness = 0.1f;
+  for (Instance& instance : scene.instances) {
+    if (instance.name == "ceiling") scene.meshes[instance.mesh].material = kCornellMaterials;
+  }
+  ASSERT_EQ(scene.materials.size(), kCornellMaterials);
+  scene.materials.push_back(mirror);
+  const Camera camera = scene.cameras.front();
+  expect_like_reference(std::move(scene), camera);
 }
 
 }  // namespace

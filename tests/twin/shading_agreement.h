@@ -76,4 +76,62 @@ class Agreement {
   std::string first_;
 };
 
+/// Kernels are compiled once for all tests; drivers of processors take their time.
+inline HitShading& shading_on(const vulkan::Device& device) {
+  static HitShading shading(device);
+  return shading;
+}
+
+/// A world, on the host and on the device.
+struct TwinWorld {
+  explicit TwinWorld(const vulkan::Device& device, Scene made)
+      : scene(std::move(made)),
+        world(scene),
+        on_device(device, scene, emissive_of(world), lights_of(world)) {}
+  Scene scene;
+  World world;
+  DeviceScene on_device;
+};
+
+/// What shading on a device leaves.
+struct Shaded {
+  std::vector<LitPointRecord> points;
+  std::vector<ShadedHitRecord> shaded;
+  std::vector<glm::vec3> irradiance;
+};
+
+/// Shades a batch on a device, whose first ray has this index.
+inline Shaded shade_on_device(const vulkan::Device& device, const World& world,
+                              const DeviceScene& scene, const HitBatch& batch,
+                              const ShadeHitsSettings& settings, std::uint32_t first_index) {
+  const auto count = static_cast<std::uint32_t>(batch.rays.size());
+  const UploadedHits hits = upload_hits(device, batch);
+  // Two runs of rays, as of two probes
+  const std::uint32_t per_index = (count + 1) / 2;
+  const vulkan::Buffer indices = vulkan::upload(
+      device, std::vector<std::uint32_t>{first_index, first_index + per_index}, "first indices");
+  const auto room = [&](std::size_t bytes) {
+    return vulkan::Buffer(device, count * bytes, vulkan::Memory::device, "shaded");
+  };
+  const vulkan::Buffer points = room(sizeof(LitPointRecord));
+  const vulkan::Buffer shaded = room(sizeof(ShadedHitRecord));
+  const vulkan::Buffer irradiance = room(sizeof(glm::vec3));
+  HostTracer tracer(device, tracer_of(world));
+  HitShading& shading = shading_on(device);
+  DeviceSolidSides sides;
+  vulkan::Buffer first_words, words;
+  if (settings.solid_sides != nullptr) {
+    first_words = vulkan::upload(device, settings.solid_sides->first_word, "first words");
+    words = vulkan::upload(device, settings.solid_sides->words, "solid sides");
+    sides = {{first_words.address()}, {words.address()}};
+  }
+  tracer.run([&](vulkan::Recorder& to) {
+    shading.shade_hits(to, {scene, tracer, sides}, hits.view, {indices.address()}, per_index,
+                       settings, {{points.address()}, {shaded.address()}, {irradiance.address()}});
+  });
+  return {vulkan::download<LitPointRecord>(device, points),
+          vulkan::download<ShadedHitRecord>(device, shaded),
+          vulkan::download<glm::vec3>(device, irradiance)};
+}
+
 }  // namespace lambent::test

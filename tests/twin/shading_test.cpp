@@ -26,14 +26,12 @@ namespace {
 using test::Agreement;
 using test::HitBatch;
 using test::HostTracer;
+using test::shade_on_device;
+using test::Shaded;
+using test::shading_on;
+using test::TwinWorld;
 
 using ShadingTwin = test::OnDevice;
-
-/// Kernels are compiled once for all tests; drivers of processors take their time.
-HitShading& shading_on(const vulkan::Device& device) {
-  static HitShading shading(device);
-  return shading;
-}
 
 constexpr int kRays = 1500;
 constexpr std::uint32_t kFirstIndex = 4096;
@@ -48,61 +46,12 @@ constexpr double kUndecidedShare = 0.01;
 // differently, some choices are others.
 constexpr double kUndecidedLightShare = 0.03;
 
-/// A world, on the host and on the device.
-struct TwinWorld {
-  explicit TwinWorld(const vulkan::Device& device, Scene made)
-      : scene(std::move(made)),
-        world(scene),
-        on_device(device, scene, emissive_of(world), lights_of(world)) {}
-  Scene scene;
-  World world;
-  DeviceScene on_device;
-};
-
 /// Built once for all tests.
 const TwinWorld& built_in(const vulkan::Device& device, const std::string& name) {
   static std::map<std::string, TwinWorld> worlds;
   const auto known = worlds.find(name);
   if (known != worlds.end()) return known->second;
   return worlds.try_emplace(name, device, scenes::make(name).value()).first->second;
-}
-
-struct Shaded {
-  std::vector<LitPointRecord> points;
-  std::vector<ShadedHitRecord> shaded;
-  std::vector<glm::vec3> irradiance;
-};
-
-Shaded shade_on_device(const vulkan::Device& device, const World& world, const DeviceScene& scene,
-                       const HitBatch& batch, const ShadeHitsSettings& settings) {
-  const auto count = static_cast<std::uint32_t>(batch.rays.size());
-  const test::UploadedHits hits = test::upload_hits(device, batch);
-  // Two runs of rays, as of two probes
-  const std::uint32_t per_index = (count + 1) / 2;
-  const vulkan::Buffer indices = vulkan::upload(
-      device, std::vector<std::uint32_t>{kFirstIndex, kFirstIndex + per_index}, "first indices");
-  const auto room = [&](std::size_t bytes) {
-    return vulkan::Buffer(device, count * bytes, vulkan::Memory::device, "shaded");
-  };
-  const vulkan::Buffer points = room(sizeof(LitPointRecord));
-  const vulkan::Buffer shaded = room(sizeof(ShadedHitRecord));
-  const vulkan::Buffer irradiance = room(sizeof(glm::vec3));
-  HostTracer tracer(device, tracer_of(world));
-  HitShading& shading = shading_on(device);
-  DeviceSolidSides sides;
-  vulkan::Buffer first_words, words;
-  if (settings.solid_sides != nullptr) {
-    first_words = vulkan::upload(device, settings.solid_sides->first_word, "first words");
-    words = vulkan::upload(device, settings.solid_sides->words, "solid sides");
-    sides = {{first_words.address()}, {words.address()}};
-  }
-  tracer.run([&](vulkan::Recorder& to) {
-    shading.shade_hits(to, {scene, tracer, sides}, hits.view, {indices.address()}, per_index,
-                       settings, {{points.address()}, {shaded.address()}, {irradiance.address()}});
-  });
-  return {vulkan::download<LitPointRecord>(device, points),
-          vulkan::download<ShadedHitRecord>(device, shaded),
-          vulkan::download<glm::vec3>(device, irradiance)};
 }
 
 /// Shades random hits on both sides and expects the same.
@@ -113,10 +62,11 @@ void expect_same_shading(const vulkan::Device& device, const World& world, const
   ShadeHitsScratch scratch;
   const std::size_t shadow_rays =
       shade_hits(world, batch.rays, batch.hits, settings, kFirstIndex, scratch, host);
-  const Shaded found = shade_on_device(device, world, scene, batch, settings);
+  const Shaded found = shade_on_device(device, world, scene, batch, settings, kFirstIndex);
 
   Agreement position("position", kTolerance), normal("normal", texture_tolerance);
-  Agreement geometric("geometric normal", kTolerance), albedo("albedo", texture_tolerance);
+  Agreement geometric("geometric normal", kTolerance), distances("distances", kTolerance),
+      albedo("albedo", texture_tolerance);
   // Emitters are always read at full resolution
   Agreement radiance("radiance", texture_tolerance), light("irradiance", kFilterTolerance);
   std::size_t lit = 0;
@@ -131,10 +81,13 @@ void expect_same_shading(const vulkan::Device& device, const World& world, const
     geometric.compare(point.geometric_normal_ws, found.points[i].geometric_normal_ws, i);
     albedo.compare(host[i].surface.albedo_over_pi, device_hit.albedo_over_pi, i);
     radiance.compare(host[i].surface.radiance, device_hit.radiance, i);
+    distances.compare(
+        {host[i].surface.reflected_at, host[i].surface.gi_share, point.viewer_distance},
+        {device_hit.reflected_at, device_hit.gi_share, found.points[i].viewer_distance}, i);
     light.compare(host[i].direct_irradiance, found.irradiance[i], i);
     if (host[i].direct_irradiance != glm::vec3(0.0f)) ++lit;
   }
-  for (const Agreement* each : {&position, &normal, &geometric, &albedo, &radiance}) {
+  for (const Agreement* each : {&position, &normal, &geometric, &distances, &albedo, &radiance}) {
     each->expect(kUndecidedShare);
   }
   light.expect(kUndecidedLightShare);
@@ -143,10 +96,12 @@ void expect_same_shading(const vulkan::Device& device, const World& world, const
 }
 
 TEST_F(ShadingTwin, LightsHitsOfBuiltInScenesAsTheHostDoes) {
-  for (const char* name : {"cornell", "two-rooms", "atrium"}) {
+  // In spheres, a third of the hits are on mirrors
+  for (const char* name : {"cornell", "two-rooms", "atrium", "spheres"}) {
     SCOPED_TRACE(name);
     const TwinWorld& twin = built_in(device(), name);
     ShadeHitsSettings settings;
+    settings.follow_mirrors = true;
     settings.cone_width = 0.1f;
     settings.emissive_samples = 2;
     settings.salt = 3;
@@ -236,7 +191,8 @@ TEST_F(ShadingTwin, LightsPointsAtAnyTimeAsWhenTheyWereHit) {
   const TwinWorld twin(device(), test::material_scene());
   const HitBatch batch = test::trace_batch(twin.world, test::random_rays(twin.scene, 300, 5u));
   ShadeHitsSettings settings;
-  const Shaded shaded = shade_on_device(device(), twin.world, twin.on_device, batch, settings);
+  const Shaded shaded =
+      shade_on_device(device(), twin.world, twin.on_device, batch, settings, kFirstIndex);
 
   const vulkan::Buffer points = vulkan::upload(device(), shaded.points, "points");
   const vulkan::Buffer irradiance(device(), shaded.points.size() * sizeof(glm::vec3),
@@ -265,12 +221,14 @@ TEST_F(ShadingTwin, ShadesSmallAndLargeBatchesInOneCommandBuffer) {
         continue;
       }
       const Surface surface = surface_at(twin.scene, batch.rays[i], batch.hits[i]);
+      const auto index = static_cast<std::uint32_t>(i);
       records[i] = {surface.position_ws,
                     surface.normal_ws,
                     surface.geometric_normal_ws,
-                    static_cast<std::uint32_t>(i),
+                    index,
                     0u,
-                    vec3(0.0f)};
+                    vec3(0.0f),
+                    0.0f};
     }
     points.push_back(vulkan::upload(device(), records, "points"));
     irradiance.emplace_back(device(), records.size() * sizeof(glm::vec3), vulkan::Memory::device,

@@ -16,40 +16,72 @@
 namespace lambent::invalidation_test {
 namespace {
 
-TEST(InvalidationResult, SurfelsReadTheProbesAroundWhereTheyAreNow) {
-  Scene scene = scenes::make("cornell").value();
-  World world(scene);
+/// A room whose probes have been traced once.
+class TracedRoom {
+ public:
+  explicit TracedRoom(Scene made)
+      : scene_(std::move(made)),
+        world(scene_),
+        settings(settings_of_room()),
+        store(still_grid(fit_grid(settings, open_bounds(world)).value()), settings) {
+    all.resize(store.probes());
+    std::iota(all.begin(), all.end(), 0);
+    group = {std::make_shared<RaySet>(settings, settings.rays_per_probe, 0u), all, {}};
+    sides = solid_sides_by_winding(scene_);
+    traces = trace();
+    blend_distances(sides, DistanceBlend(settings, group.rays->directions), group,
+                    std::vector<float>(all.size(), 1.0f), 0u, store);
+    find_surfel_lookups(store, {}, all, traces);
+  }
+
+  /// The surfels of new hits of the same rays.
+  std::vector<ProbeTrace> trace() {
+    std::vector<ProbeTrace> found(store.probes());
+    trace_probe_rays(tracer_of(world), store, group);
+    shade_surfels(world, sides, store, group, settings, found);
+    return found;
+  }
+
+  /// Moves the tall block by a third of the room, and brings the surfels up to date.
+  InvalidationResult move_block() {
+    const Bounds room = open_bounds(world);
+    scene_.instances.back().world_from_object[3].x += 0.33f * (room.max.x - room.min.x);
+    const WorldChanges changes = world.update().value();
+    return invalidate_surfels(world, sides, {&changes, 1}, settings, all, all, {}, store, traces,
+                              0u);
+  }
+
+ private:
+  static FieldSettings settings_of_room() {
+    FieldSettings settings;
+    settings.probe_count = ivec3(5);
+    settings.rays_per_probe = 64;
+    return settings;
+  }
+  Scene scene_;
+
+ public:
+  World world;
   FieldSettings settings;
-  settings.probe_count = ivec3(5);
-  settings.rays_per_probe = 64;
-  ProbeStore store(still_grid(fit_grid(settings, open_bounds(world)).value()), settings);
-  std::vector<int> all(store.probes());
-  std::iota(all.begin(), all.end(), 0);
-  TraceGroup group{std::make_shared<RaySet>(settings, settings.rays_per_probe, 0u), all, {}};
-  std::vector<ProbeTrace> traces(store.probes());
-  trace_probe_rays(tracer_of(world), store, group);
-  const SolidSides sides = solid_sides_by_winding(scene);
-  blend_distances(sides, DistanceBlend(settings, group.rays->directions), group,
-                  std::vector<float>(all.size(), 1.0f), 0u, store);
-  shade_surfels(world, sides, store, group, settings, traces);
-  find_surfel_lookups(store, {}, all, traces);
-  const std::vector<ProbeTrace> before = traces;
+  ProbeStore store;
+  std::vector<int> all;  ///< Indices of all probes.
+  TraceGroup group;
+  SolidSides sides;
+  std::vector<ProbeTrace> traces;
+};
 
-  // The tall block moves by a third of the room
-  const Bounds room = open_bounds(world);
-  scene.instances.back().world_from_object[3].x += 0.33f * (room.max.x - room.min.x);
-  const WorldChanges changes = world.update().value();
-  const InvalidationResult followed =
-      invalidate_surfels(world, sides, {&changes, 1}, settings, all, all, {}, store, traces, 0u);
-  EXPECT_FALSE(followed.moved.empty());
+TEST(InvalidationResult, SurfelsReadTheProbesAroundWhereTheyAreNow) {
+  TracedRoom room(scenes::make("cornell").value());
+  const std::vector<ProbeTrace> before = room.traces;
+  EXPECT_FALSE(room.move_block().moved.empty());
 
-  std::vector<ProbeTrace> expected = traces;
-  find_surfel_lookups(store, {}, all, expected);
+  std::vector<ProbeTrace> expected = room.traces;
+  find_surfel_lookups(room.store, {}, room.all, expected);
   int differ = 0;
-  for (const int probe : all) {
-    for (std::size_t i = 0; i < traces[probe].surfels.size(); ++i) {
-      if (!traces[probe].surfels[i].reflects()) continue;
-      const SurfelLookup &now = traces[probe].lookups[i], &should = expected[probe].lookups[i];
+  for (const int probe : room.all) {
+    for (std::size_t i = 0; i < expected[probe].surfels.size(); ++i) {
+      if (!expected[probe].surfels[i].reflects()) continue;
+      const SurfelLookup &now = room.traces[probe].lookups[i], &should = expected[probe].lookups[i];
       EXPECT_EQ(now.corners.base, should.corners.base);
       EXPECT_EQ(now.tile_corner, should.tile_corner);
       EXPECT_TRUE(std::equal(std::begin(now.corners.weight), std::end(now.corners.weight),
@@ -58,6 +90,29 @@ TEST(InvalidationResult, SurfelsReadTheProbesAroundWhereTheyAreNow) {
     }
   }
   EXPECT_GT(differ, 0);
+}
+
+TEST(InvalidationResult, SurfelsThatMirrorsShowAreThoseOfAFreshTrace) {
+  Scene scene = scenes::make("cornell").value();
+  for (Material& material : scene.materials) {
+    if (material.name != "red") continue;
+    material = {};  // a metal
+    material.roughness = 0.1f;
+  }
+  TracedRoom room(std::move(scene));
+  const std::vector<ProbeTrace> before = room.traces;
+  room.move_block();
+  const std::vector<ProbeTrace> fresh = room.trace();
+  int mirrored = 0;
+  for (const int probe : room.all) {
+    for (std::size_t i = 0; i < fresh[probe].surfels.size(); ++i) {
+      const Surfel& surfel = fresh[probe].surfels[i];
+      if (surfel.reflected_at <= 0.0f) continue;
+      EXPECT_TRUE(room.traces[probe].surfels[i] == surfel) << probe << ", ray " << i;
+      mirrored += surfel != before[probe].surfels[i] ? 1 : 0;
+    }
+  }
+  EXPECT_GT(mirrored, 0);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "field/correction/train_math.h"
+#include "field/lookup/query_at.h"
 #include "raytracing/world_access.h"
 #include "shared/color.h"
 #include "shared/rays.h"
@@ -45,12 +46,9 @@ std::vector<TrainingPoint> points_of(const Training& training, std::span<const i
     const ProbeTrace& trace = training.data.traces[at.probe];
     const Surfel& surfel = trace.surfels[at.ray];
     if (!surfel.reflects() || surfel.gi_share <= 0.0f) continue;
-    points.push_back(
-        {{surfel.position_ws, decode_unit_vector(surfel.normal_ws), -trace.rays->directions[at.ray],
-          distance(surfel.position_ws, training.data.store.probe_position_ws(at.probe))},
-         decode_unit_vector(surfel.geometric_normal_ws),
-         surfel.gi_share,
-         index});
+    points.push_back({surfel.query_from(training.data.store.probe_position_ws(at.probe),
+                                        trace.rays->directions[at.ray]),
+                      decode_unit_vector(surfel.geometric_normal_ws), surfel.gi_share, index});
   }
   return points;
 }
@@ -120,9 +118,7 @@ Gathers gather(const Training& training, std::span<const TrainingPoint> points) 
 
   std::vector<FieldQuery> queries(count);
   for (std::size_t i = 0; i < count; ++i) {
-    queries[i] = {gathers.shaded[i].point.position_ws, gathers.shaded[i].point.normal_ws,
-                  -gathers.rays[i].direction,
-                  distance(gathers.shaded[i].point.position_ws, gathers.rays[i].origin)};
+    queries[i] = query_at(gathers.shaded[i].point);
   }
   gathers.arrives.resize(count);
   gathers.traced +=
@@ -136,10 +132,7 @@ TrainingPoint following_point(const Training& training, const Gathers& gathers, 
   const uint ray = following_ray(gathers, first, index, training.number, training.seed);
   if (ray == kNoTrainingRay) return {};
   const ShadedHit& hit = gathers.shaded[ray];
-  return {{hit.point.position_ws, hit.point.normal_ws, -gathers.rays[ray].direction,
-           distance(hit.point.position_ws, gathers.rays[ray].origin)},
-          hit.point.geometric_normal_ws,
-          hit.surface.gi_share,
+  return {query_at(hit.point), hit.point.geometric_normal_ws, hit.surface.gi_share,
           index | kFollowingPoint};
 }
 
@@ -249,6 +242,7 @@ ShadeHitsSettings training_shading(const FieldSettings& settings, uint number) {
   shading.cone_width = kHemisphereConeWidth / sqrt(static_cast<float>(kTrainingRays));
   shading.max_albedo = settings.max_albedo;
   shading.candidates = kTrainingCandidates;
+  shading.follow_mirrors = true;
   shading.salt = number;
   shading.seed = ~settings.seed;
   return shading;

@@ -135,10 +135,14 @@ void SurfelInvalidation::retrace(int probe, const vec3& origin, ProbeTrace& trac
     if (other_sky && !tinted) {
       surfel.light = sky_radiance(world_.scene().environment, direction);
     }
-    const float distance = sky ? kInfiniteDistance : length(surfel.position_ws - origin);
+    const float distance = surfel.distance_from(origin);
     const bool other_material = !sky && edits_.materials[surfel.material] != 0;
-    if (!other_material && !tinted && !edits_.boxes.crossed_by(origin, direction, distance))
+    // What mirrors show hangs on places and materials that are not kept
+    const bool mirrored = surfel.reflected_at > 0.0f;
+    if (!other_material && !tinted && !mirrored &&
+        !edits_.boxes.crossed_by(origin, direction, distance)) {
       continue;
+    }
 
     const Ray ray = probe_ray(origin, direction);
     const Hit hit = tracer_of(world_).closest_hit(ray);
@@ -149,8 +153,10 @@ void SurfelInvalidation::retrace(int probe, const vec3& origin, ProbeTrace& trac
     retraced_[i] = 1;
     ++probe_rays;
     if (found == surfel) continue;
-    const bool moved = found.position_ws != surfel.position_ws || found.kind != surfel.kind;
-    outcome.moved = outcome.moved || moved;
+    const bool moved = found.position_ws != surfel.position_ws || found.kind != surfel.kind ||
+                       found.reflected_at != surfel.reflected_at;
+    outcome.moved =
+        outcome.moved || found.distance_from(origin) != distance || found.kind != surfel.kind;
     // Lookups depend on the position, the normal, and whether the surfel reflects the field's light
     const bool other = moved || found.normal_ws != surfel.normal_ws ||
                        found.gi_share != surfel.gi_share || found.reflects() != surfel.reflects();
@@ -187,9 +193,7 @@ void ray_distances(const ProbeTrace& trace, const vec3& origin, std::vector<RayD
   seen.resize(trace.surfels.size());
   for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
     const Surfel& surfel = trace.surfels[i];
-    seen[i] = {
-        surfel.kind == SurfelKind::sky ? kInfiniteDistance : length(surfel.position_ws - origin),
-        surfel.kind == SurfelKind::solid_side};
+    seen[i] = {surfel.distance_from(origin), surfel.kind == SurfelKind::solid_side};
   }
 }
 

@@ -49,6 +49,17 @@ std::size_t ProbeTrace::bytes() const {
          further.size() * sizeof(FurtherLookup);
 }
 
+float Surfel::distance_from(const vec3& origin_ws) const {
+  if (kind == SurfelKind::sky) return kInfiniteDistance;
+  return first_distance(reflected_at, distance(position_ws, origin_ws));
+}
+
+FieldQuery Surfel::query_from(const vec3& origin_ws, const vec3& ray_direction) const {
+  const vec3 normal = decode_unit_vector(normal_ws);
+  return {position_ws, normal, surfel_viewer(reflected_at, normal, ray_direction),
+          distance(position_ws, origin_ws)};
+}
+
 Surfel make_surfel(const ShadedHit& hit) {
   const SurfelRecord surfel =
       surfel_record(hit.point.position_ws, hit.point.normal_ws, hit.point.geometric_normal_ws,
@@ -61,6 +72,7 @@ Surfel make_surfel(const ShadedHit& hit) {
           surfel.geometric_normal_ws,
           static_cast<SurfelKind>(surfel.kind),
           surfel.gi_share,
+          surfel.reflected_at,
           hit.point.albedo_shape};
 }
 
@@ -95,6 +107,7 @@ ShadeHitsSettings surfel_shading(const FieldSettings& settings, const RaySet& ra
   shading.max_albedo = settings.max_albedo;
   shading.emissive_samples = settings.emissive_samples;
   shading.solid_sides = solid_sides;
+  shading.follow_mirrors = true;
   shading.salt = rays.update;
   shading.seed = settings.seed;
   return shading;
@@ -166,9 +179,8 @@ std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays&
         trace.lookups[ray] = {};
         if (surfel.gi_share <= 0.0f) continue;
         reflecting.push_back({probes[k], ray});
-        queries.push_back({surfel.position_ws, decode_unit_vector(surfel.normal_ws),
-                           -trace.rays->directions[ray],
-                           distance(surfel.position_ws, store.probe_position_ws(probes[k]))});
+        queries.push_back(
+            surfel.query_from(store.probe_position_ws(probes[k]), trace.rays->directions[ray]));
       }
     }
     QueryWeights weights;

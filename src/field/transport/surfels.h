@@ -24,7 +24,7 @@ enum class SurfelKind : std::uint8_t {
   solid_side,  ///< A side that bounds solid matter: the ray came from inside and does not count.
 };
 
-/// The hit of one probe ray, shaded.
+/// The hit of one probe ray, shaded; where the ray met mirrors, what they show.
 struct Surfel {
   vec3 position_ws;          ///< [m]; the ray's origin where the ray left the scene.
   std::uint32_t material;    ///< Index into Scene::materials; 0 where the ray left the scene.
@@ -34,10 +34,16 @@ struct Surfel {
   uint geometric_normal_ws;  ///< Packed, towards the probe.
   SurfelKind kind;
   float gi_share;  ///< Share of the field's irradiance that it receives, 0 to 1; see Surface.
+  /// Distance along the ray of the first mirror, where a mirror shows the surfel [m]; else 0.
+  float reflected_at;
   uint albedo_shape = 0;  ///< See LitPoint.
 
   bool operator==(const Surfel&) const = default;
   bool reflects() const { return albedo_over_pi != vec3(0.0f); }
+  /// Length of the ray from a probe there to what it hit first [m]; infinite where that is the sky.
+  float distance_from(const vec3& origin_ws) const;
+  /// The query of the field's light on it, along a ray from a probe there.
+  FieldQuery query_from(const vec3& origin_ws, const vec3& ray_direction) const;
 };
 
 /// A lookup of a surfel besides its first one, where volumes blend into each other.

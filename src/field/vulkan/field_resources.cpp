@@ -31,7 +31,8 @@ SurfelRecord to_record(const Surfel& surfel) {
           surfel.light,
           surfel.geometric_normal_ws,
           static_cast<uint>(surfel.kind),
-          surfel.gi_share};
+          surfel.gi_share,
+          surfel.reflected_at};
 }
 
 /// The matrix of tile_fit.h as the product needs it: rows padded to whole lane groups, columns to

@@ -13,7 +13,6 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
   LitPointRecord point = args.points.at[i];
-  RayRecord ray = args.rays.at[i];
-  args.queries.at[i] = QueryRecord(point.position_ws, point.normal_ws, -ray.direction_ws,
-                                   distance(point.position_ws, ray.origin_ws));
+  args.queries.at[i] = QueryRecord(point.position_ws, point.normal_ws, point.to_viewer_ws,
+                                   point.viewer_distance);
 }

@@ -70,11 +70,6 @@ vec3 emitted_radiance(LightDrawsArguments draws, EmitterRecord emitter, vec2 bar
 
 #include "raytracing/direct_light.inl.h"
 
-/// A ray that is not traced.
-RayRecord no_ray() {
-  return RayRecord(vec3(0.0f), 0.0f, vec3(0.0f, 0.0f, 1.0f), 0.0f, 0u);
-}
-
 /// The shadow ray to a candidate.
 RayRecord shadow_ray(LitPointRecord point, LightCandidate light) {
   return shadow_ray_record(point.position_ws, point.geometric_normal_ws, light);

@@ -25,7 +25,7 @@ void main() {
   HitRecord hit = args.hits.at[i];
   LitPointRecord point =
       LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kNoDirectLight, 0u,
-                     -ray.direction_ws);
+                     -ray.direction_ws, 0.0f);
   if (missed(hit)) {
     args.points.at[i] = point;
     ShadedHitRecord sky =
@@ -41,6 +41,7 @@ void main() {
   point.position_ws = surface.position_ws;
   point.normal_ws = surface.normal_ws;
   point.geometric_normal_ws = surface.geometric_normal_ws;
+  point.viewer_distance = hit.distance;
   point.albedo_shape = encode_albedo_shape(surface.reflectance);
   bool from_inside = args.discounts_solid_sides != 0u && is_solid_side(hit);
   ShadedHitRecord shaded =

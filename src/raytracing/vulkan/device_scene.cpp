@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "raytracing/mirrors/find_mirrors.h"
 #include "raytracing/vulkan/mesh_layout.h"
 #include "scene/attributes.h"
 #include "scene/latitude_longitude.h"
@@ -114,6 +115,7 @@ void DeviceScene::update_materials(const Scene& scene) {
   records.reserve(scene.materials.size());
   for (const Material& material : scene.materials) records.push_back(record_of(scene, material));
   materials_.set(device_, std::move(records), "materials");
+  has_mirrors_ = lambent::has_mirrors(scene);
 }
 
 void DeviceScene::update_meshes(const Scene& scene) {

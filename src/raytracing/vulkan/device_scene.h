@@ -84,6 +84,8 @@ class DeviceScene {
   bool has_emitters() const { return emitter_count_ > 0; }
   /// Whether coats sample part of the sky as a light; see bright_sky.h.
   bool has_bright_sky() const { return bright_cells_ > 0; }
+  /// Whether some surfaces may be mirrors, see mirrors/mirror_math.h.
+  bool has_mirrors() const { return has_mirrors_; }
   const vulkan::Device& device() const { return device_; }
   /// Memory held on the device [bytes].
   std::size_t bytes() const;
@@ -125,6 +127,7 @@ class DeviceScene {
   vulkan::Buffer sky_map_, bright_sky_;
   float bright_limit_ = 0.0f, bright_total_ = 0.0f;
   std::uint32_t bright_cells_ = 0;
+  bool has_mirrors_ = false;
   DeviceTable<MaterialRecord> materials_;
   DeviceTable<MeshRecord> meshes_;
   DeviceTable<InstanceRecord> instances_;

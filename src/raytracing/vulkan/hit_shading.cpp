@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "raytracing/mirrors/mirror_math.h"
 #include "shaders/collect_irradiance_comp.h"
 #include "shaders/collect_reflected_comp.h"
 #include "shaders/hit_surfaces_comp.h"
 #include "shaders/light_behind_comp.h"
 #include "shaders/light_irradiance_comp.h"
 #include "shaders/light_reflected_comp.h"
+#include "shaders/mirror_light_comp.h"
+#include "shaders/mirror_rays_comp.h"
 #include "shaders/pixel_surfaces_comp.h"
 #include "vulkan/device.h"
 
@@ -21,6 +24,14 @@ constexpr std::uint32_t kMaxSlots = 1u << 21;
 // Most invocations of a dispatch: the number of groups that every device supports, of 64 each.
 constexpr std::uint32_t kMaxInvocations = 65535u * 64u;
 
+/// Calls `work(first, count)` for runs of so many invocations, each within kMaxInvocations.
+template <class Work>
+void for_each_run(std::uint32_t invocations, Work work) {
+  for (std::uint32_t first = 0; first < invocations; first += kMaxInvocations) {
+    work(first, std::min(kMaxInvocations, invocations - first));
+  }
+}
+
 }  // namespace
 
 HitShadingKernels::HitShadingKernels(const vulkan::Device& device)
@@ -30,7 +41,9 @@ HitShadingKernels::HitShadingKernels(const vulkan::Device& device)
       light_reflected(device, shaders::light_reflected_comp(), "light as reflected"),
       light_behind(device, shaders::light_behind_comp(), "light behind surfaces"),
       collect_irradiance(device, shaders::collect_irradiance_comp(), "collect irradiance"),
-      collect_reflected(device, shaders::collect_reflected_comp(), "collect reflected light") {}
+      collect_reflected(device, shaders::collect_reflected_comp(), "collect reflected light"),
+      mirror_rays(device, shaders::mirror_rays_comp(), "rays from mirrors"),
+      mirror_light(device, shaders::mirror_light_comp(), "light that mirrors show") {}
 
 HitShading::HitShading(const vulkan::Device& device)
     : device_(device),
@@ -129,6 +142,16 @@ void HitShading::shade_hits(vulkan::Recorder& recorder, const DeviceStage& stage
                             const DeviceHits& hits, UintArray first_indices,
                             std::uint32_t rays_per_index, const ShadeHitsSettings& settings,
                             const DeviceShadedHits& out) {
+  shade_surfaces(recorder, stage, hits, first_indices, rays_per_index, settings, out);
+  if (settings.follow_mirrors && stage.scene.has_mirrors()) {
+    follow_mirrors(recorder, stage, hits, first_indices, rays_per_index, settings, out);
+  }
+}
+
+void HitShading::shade_surfaces(vulkan::Recorder& recorder, const DeviceStage& stage,
+                                const DeviceHits& hits, UintArray first_indices,
+                                std::uint32_t rays_per_index, const ShadeHitsSettings& settings,
+                                const DeviceShadedHits& out) {
   const bool glass = stage.tracer.has_glass();
   if (glass) {
     grow(hits.count * sizeof(vec3), "what passes along rays", through_memory_);
@@ -137,7 +160,7 @@ void HitShading::shade_hits(vulkan::Recorder& recorder, const DeviceStage& stage
     recorder.barrier();
   }
   recorder.bind_textures(stage.scene.textures());
-  for (std::uint32_t first = 0; first < hits.count; first += kMaxInvocations) {
+  for_each_run(hits.count, [&](std::uint32_t first, std::uint32_t count) {
     HitSurfacesArguments arguments{};
     arguments.scene = stage.scene.address();
     arguments.rays = hits.rays;
@@ -146,7 +169,7 @@ void HitShading::shade_hits(vulkan::Recorder& recorder, const DeviceStage& stage
     arguments.points = out.points;
     arguments.shaded = out.shaded;
     arguments.first = first;
-    arguments.count = std::min(kMaxInvocations, hits.count - first);
+    arguments.count = count;
     arguments.rays_per_index = rays_per_index;
     arguments.cone_width = settings.cone_width;
     arguments.max_albedo = settings.max_albedo;
@@ -155,10 +178,47 @@ void HitShading::shade_hits(vulkan::Recorder& recorder, const DeviceStage& stage
     arguments.discounts_solid_sides = stage.solid_sides.words.address != 0 ? 1 : 0;
     arguments.has_glass = glass ? 1 : 0;
     if (glass) arguments.through.address = through_memory_.address();
-    recorder.run(kernels_.hit_surfaces, arguments, arguments.count);
-  }
+    recorder.run(kernels_.hit_surfaces, arguments, count);
+  });
   recorder.barrier();
   direct_irradiance(recorder, stage, out.points, hits.count, settings, out.irradiance);
+}
+
+void HitShading::follow_mirrors(vulkan::Recorder& recorder, const DeviceStage& stage,
+                                const DeviceHits& hits, UintArray first_indices,
+                                std::uint32_t rays_per_index, const ShadeHitsSettings& settings,
+                                const DeviceShadedHits& out) {
+  grow(hits.count * sizeof(RayRecord), "rays from mirrors", reflected_.rays);
+  grow(hits.count * sizeof(HitRecord), "hits of rays from mirrors", reflected_.hits);
+  grow(hits.count * sizeof(LitPointRecord), "points that mirrors show", reflected_.points);
+  grow(hits.count * sizeof(ShadedHitRecord), "what mirrors show", reflected_.shaded);
+  grow(hits.count * sizeof(vec3), "light on what mirrors show", reflected_.irradiance);
+  const RayArray rays{reflected_.rays.address()};
+  const DeviceHits reflected{rays, {reflected_.hits.address()}, hits.count};
+  const DeviceShadedHits shown{{reflected_.points.address()},
+                               {reflected_.shaded.address()},
+                               {reflected_.irradiance.address()}};
+  for (uint mirrors = 0; mirrors < kMaxMirrors; ++mirrors) {
+    ShadeHitsSettings behind = settings;
+    behind.salt = salt_behind(settings.salt, mirrors + 1);
+    for_each_run(hits.count, [&](std::uint32_t first, std::uint32_t count) {
+      const MirrorRaysArguments arguments = {out.points,    out.shaded, hits.rays, rays,
+                                             first,         count,      mirrors,   behind.salt,
+                                             settings.seed, 0u};
+      recorder.run(kernels_.mirror_rays, arguments, count);
+    });
+    recorder.barrier();
+    stage.tracer.closest_hits(recorder, {rays, hits.count}, reflected.hits);
+    recorder.barrier();
+    shade_surfaces(recorder, stage, reflected, first_indices, rays_per_index, behind, shown);
+    for_each_run(hits.count, [&](std::uint32_t first, std::uint32_t count) {
+      const MirrorLightArguments arguments = {
+          hits.hits,    out.points,   out.shaded,       out.irradiance, rays,
+          shown.points, shown.shaded, shown.irradiance, first,          count};
+      recorder.run(kernels_.mirror_light, arguments, count);
+    });
+    recorder.barrier();
+  }
 }
 
 void HitShading::direct_irradiance(vulkan::Recorder& recorder, const DeviceStage& stage,
@@ -182,7 +242,7 @@ void HitShading::pixel_surfaces(vulkan::Recorder& recorder, const DeviceStage& s
                                 const DeviceSeenHits& hits, std::uint32_t first_index,
                                 bool traces_coats, const DevicePixels& out) {
   recorder.bind_textures(stage.scene.textures());
-  for (std::uint32_t first = 0; first < hits.count; first += kMaxInvocations) {
+  for_each_run(hits.count, [&](std::uint32_t first, std::uint32_t count) {
     PixelSurfacesArguments arguments{};
     arguments.scene = stage.scene.address();
     arguments.rays = hits.rays;
@@ -191,12 +251,12 @@ void HitShading::pixel_surfaces(vulkan::Recorder& recorder, const DeviceStage& s
     arguments.points = out.points;
     arguments.surfaces = out.surfaces;
     arguments.first = first;
-    arguments.count = std::min(kMaxInvocations, hits.count - first);
+    arguments.count = count;
     arguments.first_index = first_index;
     arguments.traces_coats = traces_coats ? 1 : 0;
     arguments.unlit_radiance = hits.unlit_radiance;
-    recorder.run(kernels_.pixel_surfaces, arguments, arguments.count);
-  }
+    recorder.run(kernels_.pixel_surfaces, arguments, count);
+  });
   recorder.barrier();
 }
 

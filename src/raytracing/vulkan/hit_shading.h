@@ -85,6 +85,7 @@ struct HitShadingKernels {
   vulkan::Kernel hit_surfaces, pixel_surfaces;
   vulkan::Kernel light_irradiance, light_reflected, light_behind;
   vulkan::Kernel collect_irradiance, collect_reflected;
+  vulkan::Kernel mirror_rays, mirror_light;
 };
 
 /// Kernels of shading, and memory that passes use in turn. The memory may grow while passes are
@@ -135,6 +136,12 @@ class HitShading {
     std::uint32_t sky_slots;       // further ones for the sky: 0 or 1
     std::uint32_t all_slots() const { return slots + sky_slots; }
   };
+  void shade_surfaces(vulkan::Recorder& recorder, const DeviceStage& stage, const DeviceHits& hits,
+                      UintArray first_indices, std::uint32_t rays_per_index,
+                      const ShadeHitsSettings& settings, const DeviceShadedHits& out);
+  void follow_mirrors(vulkan::Recorder& recorder, const DeviceStage& stage, const DeviceHits& hits,
+                      UintArray first_indices, std::uint32_t rays_per_index,
+                      const ShadeHitsSettings& settings, const DeviceShadedHits& out);
   void light_to_viewer(vulkan::Recorder& recorder, const DeviceStage& stage,
                        const DevicePixels& pixels, std::uint32_t count,
                        const ShadeHitsSettings& settings, const vulkan::Kernel& kernel,
@@ -152,6 +159,9 @@ class HitShading {
   const vulkan::Device& device_;
   const HitShadingKernels& kernels_;
   vulkan::Buffer shadow_ray_memory_, unoccluded_memory_, occlusion_memory_, through_memory_;
+  struct {
+    vulkan::Buffer rays, hits, points, shaded, irradiance;
+  } reflected_;  // the rays that go on at mirrors, and what these show
   vulkan::Buffer ray_count_;
   std::vector<vulkan::Buffer> outgrown_;  // recorded commands may still refer to them
 };

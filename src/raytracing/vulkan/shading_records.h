@@ -22,7 +22,8 @@ struct LitPointRecord {
   vec3 geometric_normal_ws;  ///< Unit, on the lit side.
   uint random_index;         ///< Seeds its random numbers; kNoDirectLight: receives no light.
   uint albedo_shape;         ///< See LitPoint.
-  vec3 to_viewer_ws;         ///< Unit; read where there is a shape.
+  vec3 to_viewer_ws;         ///< Unit; read where there is a shape, and by lookups.
+  float viewer_distance;     ///< Length of the unoccluded segment towards the viewer [m].
 };
 
 /// The surface that a camera ray hit, without its point; see Surface in surface_math.h.
@@ -63,6 +64,34 @@ struct HitSurfacesArguments {
   uint discounts_solid_sides;  ///< 1: rays that hit a side that bounds solid matter do not count.
   uint has_glass;              ///< 1: some surface transmits light.
   uint padding;
+};
+
+/// Draws the rays that go on at mirrors. Points that go on no further get a ray of mask 0.
+struct MirrorRaysArguments {
+  LitPointArray points;
+  ShadedHitArray shaded;
+  RayArray rays;  ///< Those that were shaded.
+  RayArray reflected;
+  uint first;  ///< Ray of the kernel's first invocation.
+  uint count;
+  uint mirrors;  ///< Number of mirrors that were followed before.
+  uint salt;     ///< salt_behind() of this mirror.
+  uint seed;
+  uint padding;
+};
+
+/// Merges what mirrors show into the hits.
+struct MirrorLightArguments {
+  HitArray hits;  ///< Of the rays that were shaded.
+  LitPointArray points;
+  ShadedHitArray shaded;
+  Vec3Array irradiance;
+  RayArray reflected;
+  LitPointArray shown_points;  ///< These and the next two: of the reflected rays' hits.
+  ShadedHitArray shown;
+  Vec3Array shown_irradiance;
+  uint first;  ///< Ray of the kernel's first invocation.
+  uint count;
 };
 
 /// Finds the surfaces at the hits of rays that pixels show.

@@ -18,6 +18,6 @@ void main() {
   RayRecord ray = args.rays.at[i];
   // Lookups skip a query with a normal of 0
   vec3 normal_ws = ray.mask != 0u ? point.normal_ws : vec3(0.0);
-  args.queries.at[i] = QueryRecord(point.position_ws, normal_ws, -ray.direction_ws,
-                                   distance(point.position_ws, ray.origin_ws));
+  args.queries.at[i] =
+      QueryRecord(point.position_ws, normal_ws, point.to_viewer_ws, point.viewer_distance);
 }

@@ -78,8 +78,7 @@ void main() {
   }
   LitPointRecord hit = args.hit_points.at[follows];
   args.queries.at[i] =
-      QueryRecord(hit.position_ws, hit.normal_ws, -args.rays.at[follows].direction_ws,
-                  distance(hit.position_ws, args.rays.at[follows].origin_ws));
+      QueryRecord(hit.position_ws, hit.normal_ws, hit.to_viewer_ws, hit.viewer_distance);
   args.points.at[i] = TrainingPointRecord(hit.geometric_normal_ws, args.shaded.at[follows].gi_share,
                                           point.index | kFollowingPoint);
 }

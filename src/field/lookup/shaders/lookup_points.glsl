@@ -7,7 +7,7 @@
 #include "field/vulkan/device_arguments.h"
 #include "field/probes/shaders/tiles.glsl"
 #include "field/probes/shaders/volume_of.glsl"
-#include "shared/octahedral.h"
+#include "field/lookup/shaders/query_of_surfel.glsl"
 
 struct LookupPoint {
   bool exists;
@@ -51,9 +51,7 @@ QueryRecord query_of(LookupPoint point) {
   RaySetRecord set = rays_of(point);
   int probe = args.points.list.probes.at[point.row];
   vec3 origin_ws = placed_position_of(args.store.grids, args.store.offsets, probe);
-  return QueryRecord(surfel.position_ws, decode_unit_vector(surfel.normal_ws),
-                     -set.directions.at[min(point.column, set.rays - 1)],
-                     distance(surfel.position_ws, origin_ws));
+  return query_of_surfel(surfel, origin_ws, set.directions.at[min(point.column, set.rays - 1)]);
 }
 
 #endif

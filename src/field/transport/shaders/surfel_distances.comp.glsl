@@ -29,7 +29,9 @@ void main() {
       SurfelRecord surfel = args.surfels.at[probe * args.stride + ray];
       uint back_face = surfel.kind == kSurfelSolidSide ? 1u : 0u;
       float seen =
-          surfel.kind == kSurfelSky ? farthest : length(surfel.position_ws - origin_ws);
+          surfel.kind == kSurfelSky
+              ? farthest
+              : first_distance(surfel.reflected_at, length(surfel.position_ws - origin_ws));
       counted = counted_distance(seen, back_face, farthest);
       back_faces += int(back_face);
     }
