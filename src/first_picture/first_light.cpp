@@ -108,11 +108,12 @@ bool has_ground(const World& world, const Bounds& bounds) {
          static_cast<float>(above) >= kMinThings * count;
 }
 
-/// Whether much of the scene's enclosed air is open to the sky.
-bool has_court(const World& world) {
+/// Whether much of the scene's enclosed air is open to the sky; `if_none` where no air is enclosed.
+bool has_court(const World& world, bool if_none) {
   const SpaceSurvey survey = survey_space(world, find_subject(world).bounds);
   const auto open = std::count_if(survey.enclosed.begin(), survey.enclosed.end(),
                                   [](const OpenPlace& place) { return place.open_above; });
+  if (survey.enclosed.empty()) return if_none;
   return static_cast<float>(open) >= kMinCourt * static_cast<float>(survey.enclosed.size());
 }
 
@@ -153,12 +154,15 @@ bool is_outdoors(const World& world) {
   return dwarfed || has_ground(world, subject.bounds);
 }
 
-/// Whether suns shine out of a void that the camera sees.
+/// Whether suns shine out of a void that the camera sees past things on a ground, over a court, or
+/// through the windows of a room. Objects by themselves stay before the black that their author
+/// left.
 bool lacks_a_sky(const World& world, const Camera& camera) {
   const Scene& scene = world.scene();
   if (scene.environment.radiance != glm::vec3(0.0f) || sun_ratio(scene) <= 0.0f) return false;
-  return enclosure(world, camera) < kMinEnclosure &&
-         sample_view(world, camera).sky_share >= kMinEmptyShare && is_outdoors(world);
+  const float empty = sample_view(world, camera).sky_share;
+  if (enclosure(world, camera) >= kMinEnclosure) return empty > 0.0f;
+  return empty >= kMinEmptyShare && (is_outdoors(world) || has_court(world, false));
 }
 
 }  // namespace
@@ -194,7 +198,7 @@ FirstLight choose_first_light(const World& world, const Camera& camera) {
     return FirstLight::scene;
   }
   if (indoors) {
-    const bool closed = light.sky_visibility <= kMaxSkyIndoors && !has_court(world);
+    const bool closed = light.sky_visibility <= kMaxSkyIndoors && !has_court(world, true);
     return closed ? FirstLight::lamps : FirstLight::sun;
   }
   return is_outdoors(world) ? FirstLight::sun : FirstLight::studio;

@@ -23,6 +23,8 @@ constexpr int kEmitterSamples = 8, kBounceSamples = 2;
 // Points are lit where they receive at least this share of the median of those that receive any
 // light: others are dark in comparison.
 constexpr float kLitShare = 1.0f / 32.0f;
+// The sky is visible through glass that transmits at least this share of its light.
+constexpr float kClear = 0.1f;
 // Number of directions around the camera.
 constexpr int kSphereRays = 64;
 // Seed of all random numbers in this file.
@@ -113,7 +115,13 @@ SeenView sample_view(const World& world, const Camera& camera) {
     const Surface surface = surface_at(world.scene(), rays[i], hits[i]);
     view.points.push_back({lit_point(surface), largest(surface.emission)});
   }
-  view.sky_share = 1.0f - static_cast<float>(view.points.size()) / static_cast<float>(hits.size());
+  ShadowRays towards_sky;
+  towards_sky.trace(tracer_of(world), rays);
+  std::size_t open = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    open += largest(towards_sky.share(i)) >= kClear ? 1 : 0;
+  }
+  view.sky_share = static_cast<float>(open) / static_cast<float>(rays.size());
   return view;
 }
 

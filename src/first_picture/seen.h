@@ -18,7 +18,7 @@ struct SeenPoint {
 /// What the camera sees, sampled on a coarse grid over a picture of 16:9.
 struct SeenView {
   std::vector<SeenPoint> points;  ///< Samples that show a surface.
-  float sky_share = 0.0f;         ///< Share of the samples that show the sky.
+  float sky_share = 0.0f;         ///< Share of the samples that show the sky, also through glass.
 };
 /// Samples what the camera sees.
 SeenView sample_view(const World& world, const Camera& camera);

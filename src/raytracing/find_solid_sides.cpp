@@ -9,44 +9,25 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "raytracing/raytracer.h"
-#include "raytracing/world_access.h"
+#include "raytracing/places/places.h"
 #include "scene/transmission.h"
 #include "shared/sampling.h"
 
 namespace lambent {
 namespace {
 
-// Rays from each place. A room's lamp or window is found if one of its hundreds of places sees it.
-constexpr int kRays = 32;
-constexpr std::size_t kPlacesPerTask = 64;
-// Neighbours of a place towards larger coordinates, one along each axis.
-constexpr int kAxes = 3;
-// A region of connected places is open if at least kMinLeaving of its rays leave the scene, and
-// at least one in kRaysOfLeaving: single rays slip through cracks between triangles.
-constexpr std::size_t kMinLeaving = 4;
-constexpr std::size_t kRaysOfLeaving = 5000;
 // Fewer sightings of a triangle, or of an instance, prove nothing: rays pass through cracks.
 constexpr std::uint32_t kMinSightings = 4;
 // A surface that open space sees from one side in this share of the sightings or more bounds solid
 // matter with its other side. The rest is due to cracks and to places that straddle a wall.
 constexpr float kOneSided = 0.9f;
 
-// Greatest slope of the rays that find out whether a place has walls around it. Ceilings are
-// ignored, so that courts and roofless models count.
-constexpr float kMaxWallSlope = 0.5f;
-// A place is enclosed where at least this share of those rays hits a surface: there may be a window
-// or a door.
-constexpr float kMinEnclosed = 0.75f;
 // Where this share of a scene's open places is enclosed, the scene is a room or a building seen
 // from within, and views from outside count only if the caller says so.
 constexpr float kMinRoomShare = 0.6f;
 // A field extends beyond the scene if it has places this far from it [its spacing]: less may be a
 // margin of rounding, or of a box that was given in round numbers.
 constexpr float kLeastBeyond = 0.1f;
-// Offset of places from the grid, into its hull [places]: scenes and grids are made in round
-// numbers, and a place in a wall's own plane would be on either side of it by chance.
-const vec3 kOffPlanes(0.437f, 0.511f, 0.473f);
 // Approximate number of places of the grid over the whole scene, and of the one that also covers
 // its surroundings.
 constexpr float kScenePlaces = 2048.0f, kPlacesAround = 512.0f;
@@ -68,199 +49,6 @@ struct Sightings {
     if (static_cast<float>(front) >= least) return kSolidBack;
     return static_cast<float>(back) >= least ? kSolidFront : 0u;
   }
-};
-
-/// The places whose sightings count: all; the open ones; and of these, the enclosed ones or the
-/// others.
-enum class Voters { all, open, enclosed, exposed };
-
-/// The places of a grid, the hits of their rays, and which of them are open.
-class Places {
- public:
-  Places(const World& world, const PlaceGrid& grid)
-      : world_(world),
-        grid_(grid),
-        leaving_(count(), 0),
-        open_(count(), 0),
-        joined_(kAxes * count(), 0) {
-    look_around();
-    look_across();
-    mark_lights();
-    open_regions();
-  }
-
-  OpenPlaces take_open() && { return {grid_, std::move(open_)}; }
-
-  bool any_open() const {
-    return std::any_of(open_.begin(), open_.end(), [](std::uint8_t open) { return open != 0; });
-  }
-
-  /// The share of the open places that are enclosed; 0 where none is open.
-  float enclosed_share() const {
-    float open = 0.0f, enclosed = 0.0f;
-    for (std::size_t place = 0; place < count(); ++place) {
-      if (open_[place] == 0) continue;
-      open += 1.0f;
-      enclosed += is_enclosed(place) ? 1.0f : 0.0f;
-    }
-    return open > 0.0f ? enclosed / open : 0.0f;
-  }
-
-  /// Calls `see` with all hits of the chosen places.
-  template <class See>
-  void for_each_sighting(Voters voters, See see) const {
-    for (std::size_t place = 0; place < count(); ++place) {
-      if (voters != Voters::all && open_[place] == 0) continue;
-      if (voters == Voters::enclosed && !is_enclosed(place)) continue;
-      if (voters == Voters::exposed && is_enclosed(place)) continue;
-      for (int i = 0; i < kRays; ++i) {
-        const Hit& hit = hits_[place * kRays + i];
-        if (!hit.missed()) see(hit);
-      }
-    }
-  }
-
- private:
-  std::size_t count() const {
-    return static_cast<std::size_t>(grid_.count.x) * grid_.count.y * grid_.count.z;
-  }
-  vec3 position(const vec3& coords) const {
-    const vec3 cells = (coords + kOffPlanes) * vec3(grid_.count - 1) / vec3(grid_.count);
-    return grid_.origin_ws + grid_.axes * (grid_.spacing * cells);
-  }
-  ivec3 coords(std::size_t place) const {
-    const int i = static_cast<int>(place);
-    return {i % grid_.count.x, i / grid_.count.x % grid_.count.y,
-            i / (grid_.count.x * grid_.count.y)};
-  }
-  std::size_t stride(int axis) const {
-    const std::size_t x = grid_.count.x;
-    return axis == 0 ? 1 : axis == 1 ? x : x * grid_.count.y;
-  }
-
-  bool is_enclosed(std::size_t place) const {
-    float rays = 0.0f, met = 0.0f;
-    for (uint i = 0; i < kRays; ++i) {
-      if (std::abs(spherical_fibonacci(i, kRays).y) > kMaxWallSlope) continue;
-      rays += 1.0f;
-      met += hits_[place * kRays + i].missed() ? 0.0f : 1.0f;
-    }
-    return met >= kMinEnclosed * rays;
-  }
-
-  bool emits(const Hit& hit) const {
-    const Scene& scene = world_.scene();
-    const Material& material =
-        scene.materials[scene.meshes[scene.instances[hit.instance].mesh].material];
-    return material.emission != vec3(0.0f);
-  }
-
-  /// Traces rays from each place, and counts those that leave the scene or hit a lamp.
-  void look_around() {
-    hits_.resize(kRays * count());
-    std::vector<vec3> directions;
-    for (uint i = 0; i < kRays; ++i) directions.push_back(spherical_fibonacci(i, kRays));
-    const RayTracer& tracer = tracer_of(world_);
-    parallel_chunks(count(), batch_of(tracer, kRays, kPlacesPerTask),
-                    [&](std::size_t begin, std::size_t end) {
-                      std::vector<Ray> rays;
-                      for (std::size_t place = begin; place < end; ++place) {
-                        const vec3 origin = position(coords(place));
-                        for (const vec3& direction : directions) {
-                          rays.push_back({origin, 0.0f, direction, kInfiniteDistance, kRayOfProbe});
-                        }
-                      }
-                      tracer.closest_hits(rays, {&hits_[begin * kRays], rays.size()});
-                    });
-    for (std::size_t place = 0; place < count(); ++place) {
-      const std::span<const Hit> seen = std::span(hits_).subspan(place * kRays, kRays);
-      leaving_[place] = static_cast<std::uint32_t>(std::count_if(
-          seen.begin(), seen.end(), [&](const Hit& hit) { return hit.missed() || emits(hit); }));
-    }
-  }
-
-  /// Tests which neighbouring places are mutually visible.
-  void look_across() {
-    std::vector<Ray> rays(joined_.size());
-    for (std::size_t place = 0; place < count(); ++place) {
-      const ivec3 here = coords(place);
-      for (int axis = 0; axis < kAxes; ++axis) {
-        ivec3 there = here;
-        ++there[axis];
-        // The last places lack neighbours: a ray of length 0 stands in
-        there = min(there, grid_.count - 1);
-        const vec3 from = position(here), way = position(there) - from;
-        const float distance = length(way);
-        rays[place * kAxes + axis] = {from, 0.0f, distance > 0.0f ? way / distance : vec3(0, 1, 0),
-                                      distance, kRayOfProbe};
-      }
-    }
-    const RayTracer& tracer = tracer_of(world_);
-    parallel_chunks(
-        rays.size(), batch_of(tracer, 1, kPlacesPerTask * kAxes),
-        [&](std::size_t begin, std::size_t end) {
-          tracer.occlusions({&rays[begin], end - begin}, {&joined_[begin], end - begin});
-        });
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      joined_[i] = joined_[i] == 0 && rays[i].t_max > 0.0f ? 1 : 0;
-    }
-  }
-
-  /// Counts all rays as leaving for places next to a point or spot light from which it is visible.
-  void mark_lights() {
-    for (const Light& light : world_.scene().lights) {
-      if (light.type == Light::Type::directional) continue;
-      for (const std::size_t place : grid_.places_around(light.position_ws)) {
-        const vec3 from = position(coords(place)), way = light.position_ws - from;
-        const float distance = length(way);
-        const Ray ray = {from, 0.0f, way / distance, distance, kRayOfProbe};
-        if (distance == 0.0f || !tracer_of(world_).occluded(ray)) leaving_[place] += kRays;
-      }
-    }
-  }
-
-  /// Opens the regions of connected places that enough rays leave.
-  void open_regions() {
-    std::vector<std::uint8_t> visited(count(), 0);
-    std::vector<std::size_t> region;
-    for (std::size_t first = 0; first < count(); ++first) {
-      if (visited[first] != 0) continue;
-      find_region(first, visited, region);
-      std::size_t leaving = 0;
-      for (const std::size_t place : region) leaving += leaving_[place];
-      const bool open = leaving >= kMinLeaving && leaving * kRaysOfLeaving >= region.size() * kRays;
-      for (const std::size_t place : region) open_[place] = open ? 1 : 0;
-    }
-  }
-
-  /// Finds all places that are connected to the first one, directly or through others.
-  void find_region(std::size_t first, std::vector<std::uint8_t>& visited,
-                   std::vector<std::size_t>& region) const {
-    region.assign(1, first);
-    visited[first] = 1;
-    const auto visit = [&](std::size_t place) {
-      if (visited[place] != 0) return;
-      visited[place] = 1;
-      region.push_back(place);
-    };
-    for (std::size_t next = 0; next < region.size(); ++next) {
-      const std::size_t place = region[next];
-      const ivec3 here = coords(place);
-      for (int axis = 0; axis < kAxes; ++axis) {
-        if (joined_[place * kAxes + axis] != 0) visit(place + stride(axis));
-        if (here[axis] == 0) continue;
-        const std::size_t before = place - stride(axis);
-        if (joined_[before * kAxes + axis] != 0) visit(before);
-      }
-    }
-  }
-
-  const World& world_;
-  PlaceGrid grid_;
-  std::vector<Hit> hits_;               // kRays for each place
-  std::vector<std::uint32_t> leaving_;  // number of rays that leave the scene or hit a lamp
-  std::vector<std::uint8_t> open_;      // 1: open
-  std::vector<std::uint8_t> joined_;  // 1: sees the next place along an axis; kAxes for each place
 };
 
 /// A grid of about `places` places over a box.

@@ -79,6 +79,31 @@ TEST(FirstLight, IsASkyInProportionWhereSunsShineOutOfTheVoid) {
   EXPECT_EQ(chosen(scene), FirstLight::scene);
 }
 
+TEST(FirstLight, IsASkyWhereTheSunShinesIntoRooms) {
+  // A room with a window to the south, seen from its north, and the same with a pane in the window
+  Scene room = scene_of({box_mesh({-3, 0, -3}, {3, 0.1f, 3}), box_mesh({-3, 2.9f, -3}, {3, 3, 3}),
+                         box_mesh({-3, 0, -3}, {-2.9f, 3, 3}), box_mesh({2.9f, 0, -3}, {3, 3, 3}),
+                         box_mesh({-3, 0, -3}, {3, 3, -2.9f}), box_mesh({-3, 0, 2.9f}, {3, 1, 3}),
+                         box_mesh({-3, 2.2f, 2.9f}, {3, 3, 3})});
+  Light& sun = room.lights.emplace_back();
+  sun.type = Light::Type::directional;
+  sun.direction_ws = glm::normalize(glm::vec3(0.2f, -1.0f, -1.0f));
+  sun.intensity = glm::vec3(4.0f);
+  const Camera to_window = look_at({0, 1.6f, -2.5f}, {0, 1.6f, 3}, 1.2f);
+  const Camera to_wall = look_at({0, 1.6f, -1.0f}, {0, 1.6f, -3}, 1.2f);
+  EXPECT_EQ(choose_first_light(World(room), to_window), FirstLight::sky);
+  EXPECT_EQ(choose_first_light(World(room), to_wall), FirstLight::scene);
+  test::add(room, test::quad({-3, 1, 3}, {6, 0, 0}, {0, 1.2f, 0}, 1));
+  Material pane;
+  pane.metallic = 0.0f;
+  pane.roughness = 0.0f;
+  pane.transmission = 1.0f;
+  room.materials.push_back(pane);
+  EXPECT_EQ(choose_first_light(World(room), to_window), FirstLight::sky);
+  room.materials.back().transmission = 0.0f;
+  EXPECT_EQ(choose_first_light(World(room), to_window), FirstLight::scene);
+}
+
 TEST(FirstLight, IsLampsInClosedRooms) {
   EXPECT_EQ(chosen(unlit("two-rooms")), FirstLight::lamps);
 }

@@ -64,6 +64,23 @@ TEST(SolidSides, AreTheInsidesOfWalls) {
   expect_solid_walls(thick_walled_room());
 }
 
+TEST(SolidSides, AreFoundByALampThatADeepShadeHides) {
+  Scene scene =
+      scene_of({box_mesh(vec3(-3.0f), vec3(3.0f)), box_mesh(vec3(-2.5f), vec3(2.5f), true)});
+  // A shade of 20 cm by 20 cm, 50 cm deep, open below, and a bulb of 3 cm at its top
+  const vec3 x(0.2f, 0.0f, 0.0f), y(0.0f, 0.5f, 0.0f), z(0.0f, 0.0f, 0.2f), low(0.1f, 0.6f, 0.3f);
+  for (const Mesh& side :
+       {test::quad(low, y, x, 0), test::quad(low + z, x, y, 0), test::quad(low, z, y, 0),
+        test::quad(low + x, y, z, 0), test::quad(low + y, x, z, 0)}) {
+    test::add(scene, side);
+  }
+  const vec3 bulb = low + 0.5f * (x + z) + 0.9f * y;
+  test::add(scene, box_mesh(bulb - 0.015f, bulb + 0.015f));
+  scene.meshes.back().material = static_cast<int>(scene.materials.size());
+  scene.materials.push_back(test::lambert(vec3(0.0f), vec3(100.0f)));
+  expect_solid_walls(scene);
+}
+
 TEST(SolidSides, AreTheSameWhicheverWayMeshesAreWound) {
   for (const std::size_t mesh : {0u, 1u}) {
     Scene scene = thick_walled_room();

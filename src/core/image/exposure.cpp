@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/image/mid_grey.h"
 #include "shared/color.h"
@@ -23,6 +24,8 @@ constexpr double kAlbedoShare = 0.5;
 // exposure is lowered, but by no more than kMaxLowered [stops], so that a patch of sun does not
 // make a room dark.
 constexpr double kBrightShare = 0.1, kBright = 3.0, kMaxLowered = 2.0;
+// The background counts at most as much as this share of all surfaces.
+constexpr double kMostBackground = 0.5;
 
 /// Whether a pixel shows a reflecting surface, rather than sky or a lamp.
 bool is_surface(const float* albedo) {
@@ -46,8 +49,14 @@ void LuminanceHistogram::add(const Image& linear, const Image* albedo) {
       const float value = luminance(vec3(in[0], in[grey ? 0 : 1], in[grey ? 0 : 2]));
       if (!(value > 0.0f) || !std::isfinite(value)) continue;
       double stops = std::log2(static_cast<double>(value));
-      if (albedo != nullptr && is_surface(albedo->at(x, y))) ++surfaces_[bin_of(stops)];
-      if (albedo != nullptr) stops -= albedo_stops(albedo->at(x, y));
+      if (albedo != nullptr && !is_surface(albedo->at(x, y))) {
+        ++background_[bin_of(stops)];
+        continue;
+      }
+      if (albedo != nullptr) {
+        ++surfaces_[bin_of(stops)];
+        stops -= albedo_stops(albedo->at(x, y));
+      }
       ++counts_[bin_of(stops)];
     }
   }
@@ -69,21 +78,35 @@ double LuminanceHistogram::bright_stop(double pixels) const {
   return above < pixels ? kMinStop : stop_of(bin);
 }
 
+double LuminanceHistogram::background_weight() const {
+  const auto all = [](const std::array<std::uint64_t, kBins>& counts) {
+    return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
+  };
+  const double most = kMostBackground * all(counts_), background = all(background_);
+  return most > 0.0 && background > most ? most / background : 1.0;
+}
+
 float LuminanceHistogram::stops() const {
-  std::uint64_t total = 0;
-  for (const std::uint64_t count : counts_) total += count;
-  if (total == 0) return 0.0f;
+  const double weight = background_weight();
+  std::array<double, kBins> counts{};
+  double total = 0.0;
+  for (std::size_t bin = 0; bin < kBins; ++bin) {
+    counts[bin] =
+        static_cast<double>(counts_[bin]) + weight * static_cast<double>(background_[bin]);
+    total += counts[bin];
+  }
+  if (total <= 0.0) return 0.0f;
   std::size_t median = 0;
-  for (std::uint64_t below = counts_[0]; 2 * below < total; below += counts_[median]) ++median;
+  for (double below = counts[0]; 2.0 * below < total && median + 1 < kBins;)
+    below += counts[++median];
 
   const double low = stop_of(median) - kDarker, high = stop_of(median) + kBrighter;
   double sum = 0.0;
   for (std::size_t bin = 0; bin < kBins; ++bin) {
-    sum += static_cast<double>(counts_[bin]) * std::clamp(stop_of(bin), low, high);
+    sum += counts[bin] * std::clamp(stop_of(bin), low, high);
   }
-  const double typical = sum / static_cast<double>(total);
-  const double too_bright =
-      bright_stop(kBrightShare * static_cast<double>(total)) - typical - kBright;
+  const double typical = sum / total;
+  const double too_bright = bright_stop(kBrightShare * total) - typical - kBright;
   return static_cast<float>(std::log2(kMidGrey) - typical -
                             std::clamp(too_bright, 0.0, kMaxLowered));
 }

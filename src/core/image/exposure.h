@@ -20,12 +20,13 @@ class LuminanceHistogram {
 
   /// The exposure that brings the typical luminance of the picture to mid-grey [stops]; 0 where all
   /// is black. The typical luminance is the log-average of Reinhard et al., "Photographic Tone
-  /// Reproduction for Digital Images", 2002, Eq. 1 and 2, with two changes. Surfaces lighter than
+  /// Reproduction for Digital Images", 2002, Eq. 1 and 2, with these changes. Surfaces lighter than
   /// mid-grey count with the mean, in stops, of their luminance and that of a mid-grey card in
   /// their place, so that a white room looks white. Each pixel counts as no further from the median
-  /// than some stops, so that lamps and black corners do not determine the exposure. Where surfaces
-  /// far brighter than this cover more than a tenth of the picture, the exposure is up to two stops
-  /// less.
+  /// than some stops, so that lamps and black corners do not determine the exposure. The sky and
+  /// other background count at most half as much as all surfaces together, so that a landscape under a
+  /// wide sky is not dark. Where surfaces far brighter than the typical luminance cover more than a
+  /// tenth of the picture, the exposure is up to two stops less.
   float stops() const;
 
  private:
@@ -37,7 +38,11 @@ class LuminanceHistogram {
   /// The luminance [stops] that `pixels` pixels of surfaces reach; the lowest if there are fewer.
   double bright_stop(double pixels) const;
 
-  std::array<std::uint64_t, kBins> counts_{};    // by the luminance as which pixels count
+  /// The share with which a pixel of the background counts.
+  double background_weight() const;
+
+  // Pixels by the luminance as which they count; all are in the first where no albedo is known.
+  std::array<std::uint64_t, kBins> counts_{}, background_{};
   std::array<std::uint64_t, kBins> surfaces_{};  // pixels of surfaces, by actual luminance
 };
 

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raytracing/places/places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/parallel.h"
+#include "raytracing/world_access.h"
+#include "scene/light_sampling.h"
+#include "shared/random.h"
+#include "shared/rays.h"
+#include "shared/sampling.h"
+
+namespace lambent {
+namespace {
+
+constexpr std::size_t kPlacesPerTask = 64;
+// Neighbours of a place towards larger coordinates, one along each axis.
+constexpr int kAxes = 3;
+// A region of connected places is open if at least kMinLeaving of its rays leave the scene, and
+// at least one in kRaysOfLeaving: single rays slip through cracks between triangles.
+constexpr std::size_t kMinLeaving = 4;
+constexpr std::size_t kRaysOfLeaving = 5000;
+
+// Greatest slope of the rays that find out whether a place has walls around it. Ceilings are
+// ignored, so that courts and roofless models count.
+constexpr float kMaxWallSlope = 0.5f;
+// A place is enclosed where at least this share of those rays hits a surface: there may be a window
+// or a door.
+constexpr float kMinEnclosed = 0.75f;
+
+// Offset of places from the grid, into its hull [places]: scenes and grids are made in round
+// numbers, and a place in a wall's own plane would be on either side of it by chance.
+const vec3 kOffPlanes(0.437f, 0.511f, 0.473f);
+// Number of points on emissive surfaces, chosen by their power, that rays leave to either side, and
+// of these rays: some leave a shade, however deep it is. What is halfway along a ray is lit.
+constexpr int kEmitterPoints = 64, kEmitterRays = 4;
+constexpr float kHalfway = 0.5f;
+// Seed of their random numbers.
+constexpr std::uint32_t kEmitterSeed = 5;
+
+}  // namespace
+
+Places::Places(const World& world, const PlaceGrid& grid)
+    : world_(world),
+      grid_(grid),
+      leaving_(count(), 0),
+      open_(count(), 0),
+      joined_(kAxes * count(), 0) {
+  look_around();
+  look_across();
+  mark_lights();
+  mark_emitters();
+  open_regions();
+}
+
+bool Places::any_open() const {
+  return std::any_of(open_.begin(), open_.end(), [](std::uint8_t open) { return open != 0; });
+}
+
+float Places::enclosed_share() const {
+  float open = 0.0f, enclosed = 0.0f;
+  for (std::size_t place = 0; place < count(); ++place) {
+    if (open_[place] == 0) continue;
+    open += 1.0f;
+    enclosed += is_enclosed(place) ? 1.0f : 0.0f;
+  }
+  return open > 0.0f ? enclosed / open : 0.0f;
+}
+
+std::size_t Places::count() const {
+  return static_cast<std::size_t>(grid_.count.x) * grid_.count.y * grid_.count.z;
+}
+
+vec3 Places::position(const vec3& coords) const {
+  const vec3 cells = (coords + kOffPlanes) * vec3(grid_.count - 1) / vec3(grid_.count);
+  return grid_.origin_ws + grid_.axes * (grid_.spacing * cells);
+}
+
+ivec3 Places::coords(std::size_t place) const {
+  const int i = static_cast<int>(place);
+  return {i % grid_.count.x, i / grid_.count.x % grid_.count.y,
+          i / (grid_.count.x * grid_.count.y)};
+}
+
+std::size_t Places::stride(int axis) const {
+  const std::size_t x = grid_.count.x;
+  return axis == 0 ? 1 : axis == 1 ? x : x * grid_.count.y;
+}
+
+bool Places::is_enclosed(std::size_t place) const {
+  float rays = 0.0f, met = 0.0f;
+  for (uint i = 0; i < kRays; ++i) {
+    if (std::abs(spherical_fibonacci(i, kRays).y) > kMaxWallSlope) continue;
+    rays += 1.0f;
+    met += hits_[place * kRays + i].missed() ? 0.0f : 1.0f;
+  }
+  return met >= kMinEnclosed * rays;
+}
+
+bool Places::emits(const Hit& hit) const {
+  const Scene& scene = world_.scene();
+  const Material& material =
+      scene.materials[scene.meshes[scene.instances[hit.instance].mesh].material];
+  return material.emission != vec3(0.0f);
+}
+
+void Places::look_around() {
+  hits_.resize(kRays * count());
+  std::vector<vec3> directions;
+  for (uint i = 0; i < kRays; ++i) directions.push_back(spherical_fibonacci(i, kRays));
+  const RayTracer& tracer = tracer_of(world_);
+  parallel_chunks(count(), batch_of(tracer, kRays, kPlacesPerTask),
+                  [&](std::size_t begin, std::size_t end) {
+                    std::vector<Ray> rays;
+                    for (std::size_t place = begin; place < end; ++place) {
+                      const vec3 origin = position(coords(place));
+                      for (const vec3& direction : directions) {
+                        rays.push_back({origin, 0.0f, direction, kInfiniteDistance, kRayOfProbe});
+                      }
+                    }
+                    tracer.closest_hits(rays, {&hits_[begin * kRays], rays.size()});
+                  });
+  for (std::size_t place = 0; place < count(); ++place) {
+    const std::span<const Hit> seen = std::span(hits_).subspan(place * kRays, kRays);
+    leaving_[place] = static_cast<std::uint32_t>(std::count_if(
+        seen.begin(), seen.end(), [&](const Hit& hit) { return hit.missed() || emits(hit); }));
+  }
+}
+
+void Places::look_across() {
+  std::vector<Ray> rays(joined_.size());
+  for (std::size_t place = 0; place < count(); ++place) {
+    const ivec3 here = coords(place);
+    for (int axis = 0; axis < kAxes; ++axis) {
+      ivec3 there = here;
+      ++there[axis];
+      // The last places lack neighbours: a ray of length 0 stands in
+      there = min(there, grid_.count - 1);
+      const vec3 from = position(here), way = position(there) - from;
+      const float distance = length(way);
+      rays[place * kAxes + axis] = {from, 0.0f, distance > 0.0f ? way / distance : vec3(0, 1, 0),
+                                    distance, kRayOfProbe};
+    }
+  }
+  const RayTracer& tracer = tracer_of(world_);
+  parallel_chunks(rays.size(), batch_of(tracer, 1, kPlacesPerTask * kAxes),
+                  [&](std::size_t begin, std::size_t end) {
+                    tracer.occlusions({&rays[begin], end - begin}, {&joined_[begin], end - begin});
+                  });
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    joined_[i] = joined_[i] == 0 && rays[i].t_max > 0.0f ? 1 : 0;
+  }
+}
+
+void Places::mark_around(const vec3& position_ws) {
+  for (const std::size_t place : grid_.places_around(position_ws)) {
+    const vec3 from = position(coords(place)), way = position_ws - from;
+    const float distance = length(way);
+    const Ray ray = {from, 0.0f, way / distance, distance, kRayOfProbe};
+    if (distance == 0.0f || !tracer_of(world_).occluded(ray)) leaving_[place] += kRays;
+  }
+}
+
+void Places::mark_lights() {
+  for (const Light& light : world_.scene().lights) {
+    if (light.type != Light::Type::directional) mark_around(light.position_ws);
+  }
+}
+
+void Places::mark_emitters() {
+  const EmissiveTriangles& emissive = emissive_of(world_);
+  if (emissive.empty()) return;
+  std::vector<Ray> rays;
+  for (uint i = 0; i < kEmitterPoints; ++i) {
+    RandomStream random = make_random_stream(i, 0u, kEmitterSeed);
+    const EmitterPick pick =
+        emissive.pick((static_cast<float>(i) + next_uniform(random)) / kEmitterPoints);
+    const EmitterRecord& emitter = emissive.entries()[pick.emitter];
+    const vec2 at = sample_uniform_triangle(next_uniform2(random));
+    const vec3 position_ws = emitter.corner_ws + at.x * emitter.edge1_ws + at.y * emitter.edge2_ws;
+    const vec3 front = triangle_normal(emitter.edge1_ws, emitter.edge2_ws);
+    for (int ray = 0; ray < 2 * kEmitterRays; ++ray) {
+      const vec3 side = ray < kEmitterRays ? front : -front;
+      const vec3 direction =
+          to_world(make_frame(side), sample_cosine_hemisphere(next_uniform2(random)));
+      rays.push_back(
+          {offset_ray_origin(position_ws, side), 0.0f, direction, kInfiniteDistance, kRayOfProbe});
+    }
+  }
+  std::vector<Hit> hits(rays.size());
+  tracer_of(world_).closest_hits(rays, hits);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (hits[i].missed()) continue;
+    mark_around(rays[i].origin + kHalfway * hits[i].distance * rays[i].direction);
+  }
+}
+
+void Places::open_regions() {
+  std::vector<std::uint8_t> visited(count(), 0);
+  std::vector<std::size_t> region;
+  for (std::size_t first = 0; first < count(); ++first) {
+    if (visited[first] != 0) continue;
+    find_region(first, visited, region);
+    std::size_t leaving = 0;
+    for (const std::size_t place : region) leaving += leaving_[place];
+    const bool open = leaving >= kMinLeaving && leaving * kRaysOfLeaving >= region.size() * kRays;
+    for (const std::size_t place : region) open_[place] = open ? 1 : 0;
+  }
+}
+
+void Places::find_region(std::size_t first, std::vector<std::uint8_t>& visited,
+                         std::vector<std::size_t>& region) const {
+  region.assign(1, first);
+  visited[first] = 1;
+  const auto visit = [&](std::size_t place) {
+    if (visited[place] != 0) return;
+    visited[place] = 1;
+    region.push_back(place);
+  };
+  for (std::size_t next = 0; next < region.size(); ++next) {
+    const std::size_t place = region[next];
+    const ivec3 here = coords(place);
+    for (int axis = 0; axis < kAxes; ++axis) {
+      if (joined_[place * kAxes + axis] != 0) visit(place + stride(axis));
+      if (here[axis] == 0) continue;
+      const std::size_t before = place - stride(axis);
+      if (joined_[before * kAxes + axis] != 0) visit(before);
+    }
+  }
+}
+
+}  // namespace lambent
