@@ -25,8 +25,8 @@ class LuminanceHistogram {
   /// their place, so that a white room looks white. Each pixel counts as no further from the median
   /// than some stops, so that lamps and black corners do not determine the exposure. The sky and
   /// other background count at most half as much as all surfaces together, so that a landscape
-  /// under a wide sky is not dark. Where surfaces far brighter than the typical luminance cover more
-  /// than a tenth of the picture, the exposure is up to two stops less.
+  /// under a wide sky is not dark. Where surfaces far brighter than the typical luminance cover
+  /// more than a tenth of the picture, the exposure is up to two stops less.
   float stops() const;
 
  private:
