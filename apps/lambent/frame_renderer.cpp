@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "compose/probe_view.h"
 #include "compose/unlit.h"
@@ -103,6 +104,18 @@ glm::ivec2 preview_of(const glm::ivec2& size, int side) {
 // Number of updates after which all bounces have reached all probes; noise remains.
 constexpr int kFewUpdates = 8;
 
+// A standard error of the field's light above this is visible as patches on plain walls.
+constexpr double kNoisyField = 0.05;
+
+/// Tells how much noise is left in a field that is not calm after so many updates.
+void tell_noise(const FieldProgress& reached, double standard_error) {
+  if (!(standard_error > kNoisyField)) return;
+  std::ostringstream text;
+  text << "indirect light still has " << std::lround(100.0 * standard_error) << " % of noise after "
+       << reached.updates << " updates (--updates N makes more)";
+  tell(text.str());
+}
+
 int first_updates(const RenderOptions& options) {
   return options.updates < 0 ? kFewUpdates : options.updates;
 }
@@ -132,7 +145,9 @@ Expected<void> FrameRenderer::follow(const Camera& camera, Json& stats) {
   } else {
     const UpdateRequest request{0, 0.0, viewer};
     if (wants_calm_field(options_)) {
-      calm_field(world_, kFewUpdates, request, *field_, progress_, stats);
+      const FieldProgress reached =
+          calm_field(world_, kFewUpdates, request, *field_, progress_, stats);
+      tell_noise(reached, field_->standard_error());
     } else {
       update_field(world_, first_updates(options_), request, *field_, progress_, stats);
     }

@@ -19,7 +19,9 @@ namespace {
 
 using test::ProgramResult;
 using test::run_program;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // The cheapest picture that is one.
 const std::string kQuick = " --size 32x18 --samples 1 --probes 4x4x4 --rays 32 --updates 2 ";
@@ -164,6 +166,13 @@ TEST_F(Render, UpdatesTheFieldUntilItIsCalmWhereQualityIsHigh) {
   EXPECT_TRUE(high["updates"] == 80 || high["field_standard_error"] < 0.025);
   EXPECT_EQ(updates_of("--quality draft")["updates"], 8);
   EXPECT_EQ(updates_of("--quality high --updates 3")["updates"], 3);
+}
+
+TEST_F(Render, TellsHowMuchNoiseIsLeftInTheField) {
+  const std::string picture = "cornell-spot --size 8x8 --probes 3x3x3 --gather 0 ";
+  EXPECT_THAT(render(picture + "--rays 16", exr).errors,
+              ContainsRegex("indirect light still has [0-9]+ % of noise after 80 updates"));
+  EXPECT_THAT(render(picture, exr).errors, Not(HasSubstr("noise")));
 }
 
 struct BadUse {
