@@ -63,15 +63,17 @@ class NameLock {
   sigset_t before_{};
 };
 
-/// Existing temporary names; guarded by NameLock. Never destroyed, since a signal may arrive at
-/// exit.
-std::vector<std::string>& temporary_names() {
-  static auto* names = new std::vector<std::string>;
-  return *names;
-}
+/// Existing temporary names; guarded by NameLock. A signal may arrive at any moment: they are there
+/// from the start, as the handler must not allocate them, and are never destroyed.
+union TemporaryNames {
+  std::vector<std::string> list;
+  constexpr TemporaryNames() : list() {}
+  ~TemporaryNames() {}
+};
+constinit TemporaryNames temporary_names;
 
 void forget_temporary(const std::string& name) {
-  std::erase(temporary_names(), name);
+  std::erase(temporary_names.list, name);
 }
 
 std::string temporary_name(const std::string& target) {
@@ -97,7 +99,7 @@ int open_named(const std::string& target, std::string& name) {
   for (int attempt = 0; attempt < kMaxNameAttempts; ++attempt) {
     name = temporary_name(target);
     const int made = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
-    if (made >= 0) temporary_names().push_back(name);
+    if (made >= 0) temporary_names.list.push_back(name);
     if (made >= 0 || errno != EEXIST) return made;
   }
   return -1;
@@ -120,7 +122,7 @@ int write_all(int descriptor, const std::byte* bytes, std::size_t count) {
 void discard_unfinished_files() noexcept {
   // The lock is not released: the process ends
   while (names_in_use.test_and_set(std::memory_order_acquire)) ::usleep(10);
-  for (const std::string& name : temporary_names()) ::unlink(name.c_str());
+  for (const std::string& name : temporary_names.list) ::unlink(name.c_str());
 }
 
 tl::unexpected<Error> AtomicFile::failure(int error_number) const {
@@ -145,7 +147,6 @@ Expected<AtomicFile> AtomicFile::open(const std::string& path, Unfinished how) {
     if (made.file_ == nullptr) return made.failure(errno_or(EIO));
     return made;
   }
-  temporary_names();  // construct it before a handler could need it
   const std::string directory = fs::path(made.target_).parent_path().string();
   if (how == Unfinished::nameless_if_possible) descriptor = open_nameless(directory);
   if (descriptor < 0) descriptor = open_named(made.target_, made.temporary_);
