@@ -41,6 +41,8 @@ constexpr float kMinSite = 2.0f;
 
 // The sky is missing where at least this share of what the camera sees is empty.
 constexpr float kMinEmptyShare = 0.02f;
+// In rooms, windows show it in this share, more than a single sample: rays pass through cracks.
+constexpr float kMinWindow = 0.005f;
 
 // Number of rays down onto a scene's footprint, along each edge.
 constexpr int kRaysAlongFootprint = 16;
@@ -161,7 +163,7 @@ bool lacks_a_sky(const World& world, const Camera& camera) {
   const Scene& scene = world.scene();
   if (scene.environment.radiance != glm::vec3(0.0f) || sun_ratio(scene) <= 0.0f) return false;
   const float empty = sample_view(world, camera).sky_share;
-  if (enclosure(world, camera) >= kMinEnclosure) return empty > 0.0f;
+  if (enclosure(world, camera) >= kMinEnclosure) return empty >= kMinWindow;
   return empty >= kMinEmptyShare && (is_outdoors(world) || has_court(world, false));
 }
 

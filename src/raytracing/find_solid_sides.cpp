@@ -8,10 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/parallel.h"
 #include "raytracing/places/places.h"
 #include "scene/transmission.h"
-#include "shared/sampling.h"
 
 namespace lambent {
 namespace {

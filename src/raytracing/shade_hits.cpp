@@ -155,7 +155,7 @@ std::size_t follow_mirrors(const World& world, std::span<const Ray> rays, std::s
   reflected.from.clear();
   reflected.rays.clear();
   scratch.indices.clear();
-  const std::uint32_t salt = salt_behind(settings.salt, mirrors + 1);
+  const std::uint32_t salt = salt_of_mirror(settings.salt, mirrors);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const LitPoint& point = shaded[i].point;
     // Rays that met no mirror before have none behind it
@@ -180,7 +180,7 @@ std::size_t follow_mirrors(const World& world, std::span<const Ray> rays, std::s
   reflected.shaded.resize(reflected.rays.size());
   tracer_of(world).closest_hits(reflected.rays, reflected.hits);
   ShadeHitsSettings behind = settings;
-  behind.salt = salt;
+  behind.salt = salt_behind(settings.salt, mirrors + 1);
   const std::size_t shadow_rays = shade_surfaces(world, reflected.rays, reflected.hits, behind,
                                                  scratch.indices, scratch, reflected.shaded);
   for (std::size_t k = 0; k < reflected.from.size(); ++k) {

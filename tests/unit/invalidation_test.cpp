@@ -2,6 +2,7 @@
 // What edits do to the surfels of probes.
 #include "field/edits/invalidation.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,6 +16,9 @@
 
 namespace lambent::invalidation_test {
 namespace {
+
+using ::testing::FloatNear;
+using ::testing::Pointwise;
 
 /// A room whose probes have been traced once.
 class TracedRoom {
@@ -46,12 +50,24 @@ class TracedRoom {
   InvalidationResult move_block() {
     const Bounds room = open_bounds(world);
     scene_.instances.back().world_from_object[3].x += 0.33f * (room.max.x - room.min.x);
+    return follow_edits();
+  }
+
+  /// Gives the red wall another material, and brings the surfels up to date.
+  InvalidationResult paint_red_wall(const Material& paint) {
+    for (Material& material : scene_.materials) {
+      if (material.name == "red") material = paint;
+    }
+    return follow_edits();
+  }
+
+ private:
+  InvalidationResult follow_edits() {
     const WorldChanges changes = world.update().value();
     return invalidate_surfels(world, sides, {&changes, 1}, settings, all, all, {}, store, traces,
                               0u);
   }
 
- private:
   static FieldSettings settings_of_room() {
     FieldSettings settings;
     settings.probe_count = ivec3(5);
@@ -113,6 +129,37 @@ TEST(InvalidationResult, SurfelsThatMirrorsShowAreThoseOfAFreshTrace) {
     }
   }
   EXPECT_GT(mirrored, 0);
+}
+
+TEST(InvalidationResult, AWallThatBecomesAMirrorKeepsItsDistances) {
+  TracedRoom room(scenes::make("cornell").value());
+  const auto mean_distances = [&] {
+    std::vector<float> means;
+    for (const int probe : room.all) {
+      const int edge = room.store.distance_texels();
+      for (int t = 0; t < edge * edge; ++t) {
+        means.push_back(room.store.moments_texel(probe, ivec2(t % edge, t / edge) + 1).x);
+      }
+    }
+    return means;
+  };
+  const std::vector<float> means_before = mean_distances();
+  Material mirror;
+  mirror.name = "red";
+  mirror.roughness = 0.1f;
+  room.paint_red_wall(mirror);
+  const std::vector<ProbeTrace> fresh = room.trace();
+  int mirrored = 0;
+  for (const int probe : room.all) {
+    for (std::size_t i = 0; i < fresh[probe].surfels.size(); ++i) {
+      if (fresh[probe].surfels[i].reflected_at <= 0.0f) continue;
+      ++mirrored;
+      EXPECT_TRUE(room.traces[probe].surfels[i] == fresh[probe].surfels[i]) << probe << ", " << i;
+    }
+  }
+  EXPECT_GT(mirrored, 0);
+  // Distances along rays and between points differ by rounding, which 16 bits of a float hide
+  EXPECT_THAT(mean_distances(), Pointwise(FloatNear(2e-3f), means_before));
 }
 
 }  // namespace

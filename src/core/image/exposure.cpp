@@ -24,8 +24,9 @@ constexpr double kAlbedoShare = 0.5;
 // exposure is lowered, but by no more than kMaxLowered [stops], so that a patch of sun does not
 // make a room dark.
 constexpr double kBrightShare = 0.1, kBright = 3.0, kMaxLowered = 2.0;
-// The background counts at most as much as this share of all surfaces.
-constexpr double kMostBackground = 0.5;
+// The background counts at most as much as the first share of all surfaces, and as if these covered
+// the second share of the picture at least: a bird in the sky does not decide.
+constexpr double kMostBackground = 0.5, kLeastSurfaces = 0.05;
 
 /// Whether a pixel shows a reflecting surface, rather than sky or a lamp.
 bool is_surface(const float* albedo) {
@@ -82,18 +83,21 @@ double LuminanceHistogram::background_weight() const {
   const auto all = [](const std::array<std::uint64_t, kBins>& counts) {
     return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
   };
-  const double most = kMostBackground * all(counts_), background = all(background_);
+  const double surfaces = all(counts_), background = all(background_);
+  const double most =
+      kMostBackground * std::max(surfaces, kLeastSurfaces * (surfaces + background));
   return most > 0.0 && background > most ? most / background : 1.0;
 }
 
 float LuminanceHistogram::stops() const {
   const double weight = background_weight();
   std::array<double, kBins> counts{};
-  double total = 0.0;
+  double total = 0.0, pixels = 0.0;
   for (std::size_t bin = 0; bin < kBins; ++bin) {
     counts[bin] =
         static_cast<double>(counts_[bin]) + weight * static_cast<double>(background_[bin]);
     total += counts[bin];
+    pixels += static_cast<double>(counts_[bin] + background_[bin]);
   }
   if (total <= 0.0) return 0.0f;
   std::size_t median = 0;
@@ -106,7 +110,7 @@ float LuminanceHistogram::stops() const {
     sum += counts[bin] * std::clamp(stop_of(bin), low, high);
   }
   const double typical = sum / total;
-  const double too_bright = bright_stop(kBrightShare * total) - typical - kBright;
+  const double too_bright = bright_stop(kBrightShare * pixels) - typical - kBright;
   return static_cast<float>(std::log2(kMidGrey) - typical -
                             std::clamp(too_bright, 0.0, kMaxLowered));
 }

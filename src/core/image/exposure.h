@@ -41,7 +41,7 @@ class LuminanceHistogram {
   /// The share with which a pixel of the background counts.
   double background_weight() const;
 
-  // Pixels by the luminance as which they count; all are in the first where no albedo is known.
+  // Pixels by the luminance as which they count. Without an albedo, all are in `counts_`.
   std::array<std::uint64_t, kBins> counts_{}, background_{};
   std::array<std::uint64_t, kBins> surfaces_{};  // pixels of surfaces, by actual luminance
 };

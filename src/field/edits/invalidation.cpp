@@ -137,7 +137,7 @@ void SurfelInvalidation::retrace(int probe, const vec3& origin, ProbeTrace& trac
     }
     const float distance = surfel.distance_from(origin);
     const bool other_material = !sky && edits_.materials[surfel.material] != 0;
-    // What mirrors show hangs on places and materials that are not kept
+    // The mirror's place and material are not stored: the edits may concern them
     const bool mirrored = surfel.reflected_at > 0.0f;
     if (!other_material && !tinted && !mirrored &&
         !edits_.boxes.crossed_by(origin, direction, distance)) {
@@ -324,7 +324,8 @@ InvalidationResult invalidate_surfels(const World& world, const SolidSides& soli
     for (std::size_t k = begin; k < end; ++k) {
       const int probe = probes[k];
       const vec3 origin = store.probe_position_ws(probe);
-      if (!edits.boxes.empty()) ray_distances(traces[probe], origin, part.seen);
+      // Materials that become mirrors, or no longer are, change distances by rounding
+      ray_distances(traces[probe], origin, part.seen);
       const SurfelInvalidation::Outcome outcome =
           invalidation.update_probe(probe, origin, traces[probe]);
       if (outcome.other_surfaces) part.other_surfaces.push_back({probe, invalidation.changed()});

@@ -24,7 +24,8 @@ const float kMinCoatOfMirror = 0.75f, kMinMirrorReflectance = 0.1f;
 // The most mirrors that a ray follows one after the other. The last one reflects the field's light.
 const uint kMaxMirrors = 3u;
 
-// Sets the random numbers of rays behind mirrors apart from those of the light at hits.
+// Multiples of this salt give the directions of rays from mirrors, and the light on what these
+// show, random numbers of their own.
 const uint kMirrorSalt = 0x9E3779B9u;
 
 // Channels in which a mirror shows black keep this albedo, so that the mirror's own direct light
@@ -48,9 +49,14 @@ LAMBENT_FN bool goes_on(ShadedHitRecord hit, uint shape, vec3 normal_ws, vec3 to
          dot(normal_ws, to_viewer_ws) > 0.0f;
 }
 
-/// The salt of the random numbers behind so many mirrors; `salt` itself for 0.
+/// The salt of the direction in which a ray goes on that has met so many mirrors before.
+LAMBENT_FN uint salt_of_mirror(uint salt, uint mirrors) {
+  return salt ^ ((2u * mirrors + 1u) * kMirrorSalt);
+}
+
+/// The salt of the light on what a ray finds behind so many mirrors; `salt` itself for 0.
 LAMBENT_FN uint salt_behind(uint salt, uint mirrors) {
-  return salt ^ (mirrors * kMirrorSalt);
+  return salt ^ (2u * mirrors * kMirrorSalt);
 }
 
 /// Direction of a ray that a mirror of this shape reflects. Vectors are unit; `u` is uniform.

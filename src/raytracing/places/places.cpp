@@ -154,18 +154,18 @@ void Places::look_across() {
   }
 }
 
-void Places::mark_around(const vec3& position_ws) {
+void Places::mark_around(const vec3& position_ws, std::uint32_t rays) {
   for (const std::size_t place : grid_.places_around(position_ws)) {
     const vec3 from = position(coords(place)), way = position_ws - from;
     const float distance = length(way);
     const Ray ray = {from, 0.0f, way / distance, distance, kRayOfProbe};
-    if (distance == 0.0f || !tracer_of(world_).occluded(ray)) leaving_[place] += kRays;
+    if (distance == 0.0f || !tracer_of(world_).occluded(ray)) leaving_[place] += rays;
   }
 }
 
 void Places::mark_lights() {
   for (const Light& light : world_.scene().lights) {
-    if (light.type != Light::Type::directional) mark_around(light.position_ws);
+    if (light.type != Light::Type::directional) mark_around(light.position_ws, kRays);
   }
 }
 
@@ -193,7 +193,7 @@ void Places::mark_emitters() {
   tracer_of(world_).closest_hits(rays, hits);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits[i].missed()) continue;
-    mark_around(rays[i].origin + kHalfway * hits[i].distance * rays[i].direction);
+    mark_around(rays[i].origin + kHalfway * hits[i].distance * rays[i].direction, 1);
   }
 }
 

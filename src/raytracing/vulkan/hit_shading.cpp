@@ -24,7 +24,8 @@ constexpr std::uint32_t kMaxSlots = 1u << 21;
 // Most invocations of a dispatch: the number of groups that every device supports, of 64 each.
 constexpr std::uint32_t kMaxInvocations = 65535u * 64u;
 
-/// Calls `work(first, count)` for runs of so many invocations, each within kMaxInvocations.
+/// Splits `invocations` into dispatches of at most kMaxInvocations, and calls `work(first, count)`
+/// for each.
 template <class Work>
 void for_each_run(std::uint32_t invocations, Work work) {
   for (std::uint32_t first = 0; first < invocations; first += kMaxInvocations) {
@@ -184,6 +185,7 @@ void HitShading::shade_surfaces(vulkan::Recorder& recorder, const DeviceStage& s
   direct_irradiance(recorder, stage, out.points, hits.count, settings, out.irradiance);
 }
 
+/// Every round covers all rays; those that met no mirror have a mask of 0.
 void HitShading::follow_mirrors(vulkan::Recorder& recorder, const DeviceStage& stage,
                                 const DeviceHits& hits, UintArray first_indices,
                                 std::uint32_t rays_per_index, const ShadeHitsSettings& settings,
@@ -202,9 +204,10 @@ void HitShading::follow_mirrors(vulkan::Recorder& recorder, const DeviceStage& s
     ShadeHitsSettings behind = settings;
     behind.salt = salt_behind(settings.salt, mirrors + 1);
     for_each_run(hits.count, [&](std::uint32_t first, std::uint32_t count) {
-      const MirrorRaysArguments arguments = {out.points,    out.shaded, hits.rays, rays,
-                                             first,         count,      mirrors,   behind.salt,
-                                             settings.seed, 0u};
+      const MirrorRaysArguments arguments = {
+          out.points,    out.shaded, hits.rays, rays,
+          first,         count,      mirrors,   salt_of_mirror(settings.salt, mirrors),
+          settings.seed, 0u};
       recorder.run(kernels_.mirror_rays, arguments, count);
     });
     recorder.barrier();

@@ -75,7 +75,7 @@ struct MirrorRaysArguments {
   uint first;  ///< Ray of the kernel's first invocation.
   uint count;
   uint mirrors;  ///< Number of mirrors that were followed before.
-  uint salt;     ///< salt_behind() of this mirror.
+  uint salt;     ///< salt_of_mirror() of this mirror.
   uint seed;
   uint padding;
 };
@@ -87,10 +87,10 @@ struct MirrorLightArguments {
   ShadedHitArray shaded;
   Vec3Array irradiance;
   RayArray reflected;
-  LitPointArray shown_points;  ///< These and the next two: of the reflected rays' hits.
-  ShadedHitArray shown;
-  Vec3Array shown_irradiance;
-  uint first;  ///< Ray of the kernel's first invocation.
+  LitPointArray shown_points;  ///< Points that the reflected rays hit.
+  ShadedHitArray shown;        ///< Their shading.
+  Vec3Array shown_irradiance;  ///< Direct irradiance there [W/m^2].
+  uint first;                  ///< Ray of the kernel's first invocation.
   uint count;
 };
 
