@@ -154,19 +154,31 @@ void Places::look_across() {
   }
 }
 
-void Places::mark_around(const vec3& position_ws, std::uint32_t rays) {
-  for (const std::size_t place : grid_.places_around(position_ws)) {
-    const vec3 from = position(coords(place)), way = position_ws - from;
-    const float distance = length(way);
-    const Ray ray = {from, 0.0f, way / distance, distance, kRayOfProbe};
-    if (distance == 0.0f || !tracer_of(world_).occluded(ray)) leaving_[place] += rays;
+void Places::mark_around(std::span<const vec3> points_ws, std::uint32_t rays) {
+  std::vector<Ray> ways;
+  std::vector<std::size_t> places;
+  for (const vec3& point : points_ws) {
+    for (const std::size_t place : grid_.places_around(point)) {
+      const vec3 from = position(coords(place)), way = point - from;
+      const float distance = length(way);
+      ways.push_back(
+          {from, 0.0f, distance > 0.0f ? way / distance : vec3(0, 1, 0), distance, kRayOfProbe});
+      places.push_back(place);
+    }
+  }
+  std::vector<std::uint8_t> occluded(ways.size());
+  tracer_of(world_).occlusions(ways, occluded);
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    if (occluded[i] == 0 || ways[i].t_max == 0.0f) leaving_[places[i]] += rays;
   }
 }
 
 void Places::mark_lights() {
+  std::vector<vec3> points;
   for (const Light& light : world_.scene().lights) {
-    if (light.type != Light::Type::directional) mark_around(light.position_ws, kRays);
+    if (light.type != Light::Type::directional) points.push_back(light.position_ws);
   }
+  mark_around(points, kRays);
 }
 
 void Places::mark_emitters() {
@@ -191,10 +203,12 @@ void Places::mark_emitters() {
   }
   std::vector<Hit> hits(rays.size());
   tracer_of(world_).closest_hits(rays, hits);
+  std::vector<vec3> points;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits[i].missed()) continue;
-    mark_around(rays[i].origin + kHalfway * hits[i].distance * rays[i].direction, 1);
+    points.push_back(rays[i].origin + kHalfway * hits[i].distance * rays[i].direction);
   }
+  mark_around(points, 1);
 }
 
 void Places::open_regions() {

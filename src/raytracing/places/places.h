@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -58,9 +59,9 @@ class Places {
   void look_around();
   /// Tests which neighbouring places are mutually visible.
   void look_across();
-  /// Counts so many rays as leaving for places next to a point in open space from which it is
-  /// visible.
-  void mark_around(const vec3& position_ws, std::uint32_t rays);
+  /// Counts so many rays as leaving for the places next to each of some points in open space, from
+  /// which the point is visible.
+  void mark_around(std::span<const vec3> points_ws, std::uint32_t rays);
   /// Marks the places around point and spot lights.
   void mark_lights();
   /// Marks places where emissive surfaces shine. Small lamps in shades are hit by none of the
