@@ -31,10 +31,7 @@ void queue_direct_light(const LightDraws& draws, const Media& media, const GBuff
   const Surface& surface = gbuffer.surfaces[pixel];
   const Frame frame = make_frame(surface.normal_ws);
   const vec3 to_viewer = to_local(frame, gbuffer.to_viewer_ws[pixel]);
-  const auto share_of = [&](const std::vector<float>& shares) {
-    return shares.empty() ? 0.0f : shares[pixel];
-  };
-  const CoatShares shares{share_of(gbuffer.coat_shares), share_of(gbuffer.clearcoat_shares)};
+  const CoatShares shares = gbuffer.coat_shares.empty() ? CoatShares{} : gbuffer.coat_shares[pixel];
   const auto samples = static_cast<uint>(draws.tree_samples);
   const Reflector reflector{surface.reflectance, frame, to_viewer, shares, samples};
   const LitPoint point{surface.position_ws, surface.normal_ws, surface.geometric_normal_ws};

@@ -168,7 +168,6 @@ class FramePassesCpu final : public FramePasses {
     trace_gbuffer(request().world, request().camera, request().settings, band, sample, gbuffer_,
                   request().jitter());
     gbuffer_.coat_shares.clear();
-    gbuffer_.clearcoat_shares.clear();
     if (traces_coats(request())) find_coat_shares(gbuffer_);
     light_.transmitted.clear();
     now_->frame.rays += gbuffer_.size();

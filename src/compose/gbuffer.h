@@ -8,6 +8,7 @@
 
 #include "lambent/renderer.h"
 #include "lambent/world.h"
+#include "raytracing/coat_share.h"
 #include "raytracing/surface.h"
 
 namespace lambent {
@@ -44,10 +45,7 @@ struct GBuffer {
   std::vector<Surface> surfaces;        ///< Undefined where `hit` is 0.
   std::vector<std::uint8_t> hit;        ///< 1 where the camera sees a surface.
   std::vector<glm::vec3> to_viewer_ws;  ///< Unit; back along the primary ray.
-  /// Share of the coats' light that comes from rays of their own, 0 to 1; see
-  /// raytracing/coat_share.h. Empty: there are no such rays.
-  std::vector<float> coat_shares;
-  std::vector<float> clearcoat_shares;  ///< The same for clearcoats. Empty where there are none.
+  std::vector<CoatShares> coat_shares;  ///< Empty: coats have no rays of their own.
 
   std::size_t size() const { return hit.size(); }
 };

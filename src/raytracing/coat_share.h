@@ -57,6 +57,15 @@ LAMBENT_FN float pixel_coat_share(Reflectance surface) {
              clamp((major - kLastMinorCoat) / (kFirstMajorCoat - kLastMinorCoat), 0.0f, 1.0f));
 }
 
+/// The shares at a pixel's surface.
+LAMBENT_FN CoatShares pixel_coat_shares(Reflectance surface) {
+  CoatShares shares = {pixel_coat_share(surface), 0.0f};
+  if (has_clearcoat(surface.layers)) {
+    shares.clearcoat = traced_coat_share(clearcoat_alone(surface.layers));
+  }
+  return shares;
+}
+
 /// Density with which `emitter_samples` samples of emitters are taken to find one [1/sr].
 LAMBENT_FN float emitter_density(uint emitter_samples) {
   return kEmitterDensity * float(emitter_samples);

@@ -159,7 +159,7 @@ std::size_t follow_mirrors(const World& world, std::span<const Ray> rays, std::s
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const LitPoint& point = shaded[i].point;
     // Rays that met no mirror before have none behind it
-    if (mirrors > 0 && shaded[i].surface.reflected_at <= 0.0f) continue;
+    if (mirrors > 0 && shaded[i].surface.mirror_distance <= 0.0f) continue;
     if (!goes_on(shaded[i].surface, point.albedo_shape, point.normal_ws, point.to_viewer_ws)) {
       continue;
     }

@@ -39,8 +39,10 @@ struct ShadeHitsSettings {
   /// Rays that hit a side that bounds solid matter come from inside it and are discounted; null:
   /// all rays count. Must outlive the shading.
   const SolidSides* solid_sides = nullptr;
-  bool follow_mirrors = false;  ///< Rays go on at mirrors, see mirrors/mirror_math.h.
-  std::uint32_t salt = 0;       ///< Salt of the random numbers; a hit's index makes them unique.
+  /// Rays go on at mirrors (mirrors/mirror_math.h). Each mirror costs a ray and the shading of its
+  /// hit.
+  bool follow_mirrors = false;
+  std::uint32_t salt = 0;  ///< Salt of the random numbers; a hit's index makes them unique.
   std::uint32_t seed = 1;
 };
 

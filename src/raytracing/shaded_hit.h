@@ -27,7 +27,7 @@ struct ShadedHitRecord {
   float gi_share;  ///< See Surface; 0 where the ray left the scene.
   /// Where the ray met a mirror (mirrors/mirror_math.h) and went on: the mirror's distance from the
   /// ray's origin [m]. The rest describes what the mirror shows. 0: the ray met none.
-  float reflected_at;
+  float mirror_distance;
 };
 
 /// The record of a ray that left the scene.

@@ -84,11 +84,11 @@ void expect_same_shading(const vulkan::Device& device, const World& world, const
     albedo.compare(host[i].surface.albedo_over_pi, device_hit.albedo_over_pi, i);
     radiance.compare(host[i].surface.radiance, device_hit.radiance, i);
     distances.compare(
-        {host[i].surface.reflected_at, host[i].surface.gi_share, point.viewer_distance},
-        {device_hit.reflected_at, device_hit.gi_share, found.points[i].viewer_distance}, i);
+        {host[i].surface.mirror_distance, host[i].surface.gi_share, point.viewer_distance},
+        {device_hit.mirror_distance, device_hit.gi_share, found.points[i].viewer_distance}, i);
     light.compare(host[i].direct_irradiance, found.irradiance[i], i);
     if (host[i].direct_irradiance != glm::vec3(0.0f)) ++lit;
-    if (host[i].surface.reflected_at > 0.0f) ++mirrored;
+    if (host[i].surface.mirror_distance > 0.0f) ++mirrored;
   }
   for (const Agreement* each : {&position, &normal, &geometric, &distances, &albedo, &radiance}) {
     each->expect(kUndecidedShare);

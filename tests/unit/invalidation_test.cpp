@@ -123,7 +123,7 @@ TEST(InvalidationResult, SurfelsThatMirrorsShowAreThoseOfAFreshTrace) {
   for (const int probe : room.all) {
     for (std::size_t i = 0; i < fresh[probe].surfels.size(); ++i) {
       const Surfel& surfel = fresh[probe].surfels[i];
-      if (surfel.reflected_at <= 0.0f) continue;
+      if (surfel.mirror_distance <= 0.0f) continue;
       EXPECT_TRUE(room.traces[probe].surfels[i] == surfel) << probe << ", ray " << i;
       mirrored += surfel != before[probe].surfels[i] ? 1 : 0;
     }
@@ -152,7 +152,7 @@ TEST(InvalidationResult, AWallThatBecomesAMirrorKeepsItsDistances) {
   int mirrored = 0;
   for (const int probe : room.all) {
     for (std::size_t i = 0; i < fresh[probe].surfels.size(); ++i) {
-      if (fresh[probe].surfels[i].reflected_at <= 0.0f) continue;
+      if (fresh[probe].surfels[i].mirror_distance <= 0.0f) continue;
       ++mirrored;
       EXPECT_TRUE(room.traces[probe].surfels[i] == fresh[probe].surfels[i]) << probe << ", " << i;
     }

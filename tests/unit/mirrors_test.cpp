@@ -98,8 +98,8 @@ TEST(Mirrors, ShowWhatTheyFace) {
   const World world(scene);
   const ShadedHit mirror = shade(world, kTowardsMirror, false);
   const ShadedHit shown = shade(world, kTowardsMirror, true);
-  EXPECT_EQ(mirror.surface.reflected_at, 0.0f);
-  EXPECT_NEAR(shown.surface.reflected_at, 1.0f, kTolerance);
+  EXPECT_EQ(mirror.surface.mirror_distance, 0.0f);
+  EXPECT_NEAR(shown.surface.mirror_distance, 1.0f, kTolerance);
   EXPECT_NEAR(shown.point.position_ws.x, 2.0f, kTolerance);
   EXPECT_NEAR(length(shown.point.position_ws - vec3(2.0f, 0.0f, 0.0f)), 0.0f, kSpread);
   EXPECT_NEAR(shown.point.viewer_distance, 2.0f, kSpread);
@@ -153,7 +153,7 @@ TEST(Mirrors, ThatFaceEachOtherEndRays) {
   // After an odd number of mirrors the other one is shown, as a surface that the field lights
   static_assert(kMaxMirrors % 2 == 1);
   EXPECT_NEAR(shown.point.position_ws.x, 2.0f, kTolerance);
-  EXPECT_NEAR(shown.surface.reflected_at, 1.0f, kTolerance);
+  EXPECT_NEAR(shown.surface.mirror_distance, 1.0f, kTolerance);
   EXPECT_EQ(shown.surface.gi_share, 1.0f);
 }
 

@@ -58,7 +58,7 @@ class RayReuseTest : public testing::Test {
         pixels.surfaces.push_back(surface);
         pixels.hit.push_back(1);
         pixels.to_viewer_ws.push_back(direction_about(0.6f));
-        pixels.coat_shares.push_back(uniform() < 0.1f ? 0.0f : uniform());
+        pixels.coat_shares.push_back({uniform() < 0.1f ? 0.0f : uniform(), 0.0f});
         picture.rays.push_back(ray_of(pixels, pixels.size() - 1));
       }
     }
@@ -71,7 +71,7 @@ class RayReuseTest : public testing::Test {
 
   CoatRay ray_of(const GBuffer& pixels, std::size_t i) {
     CoatRay ray{vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f), 0.0f};
-    if (pixels.coat_shares[i] <= 0.0f || uniform() < 0.1f) return ray;
+    if (pixels.coat_shares[i].coat <= 0.0f || uniform() < 0.1f) return ray;
     const Surface& surface = pixels.surfaces[i];
     const CoatDraw drawn = draw_coat_ray(surface.reflectance, make_frame(surface.normal_ws),
                                          pixels.to_viewer_ws[i], vec2(uniform(), uniform()));
@@ -90,7 +90,7 @@ class RayReuseTest : public testing::Test {
   vec4 expected(const GlossySettings& settings, const ivec2& pixel) const {
     const std::size_t i = place_of(pixel);
     const GBuffer& pixels = picture.pixels;
-    if (pixels.coat_shares[i] <= 0.0f) return vec4(0.0f);
+    if (pixels.coat_shares[i].coat <= 0.0f) return vec4(0.0f);
     const Surface& surface = pixels.surfaces[i];
     CoatReceiver at{fetch_lobe(picture, pixel),
                     surface.reflectance,
@@ -100,9 +100,9 @@ class RayReuseTest : public testing::Test {
                     {},
                     0.0f};
     find_lobe(at);
-    return pixels.coat_shares[i] * reuse_rays(picture, pixel, at,
-                                              static_cast<uint>(settings.sample),
-                                              static_cast<uint>(settings.frame.glossy_rows));
+    return pixels.coat_shares[i].coat * reuse_rays(picture, pixel, at,
+                                                   static_cast<uint>(settings.sample),
+                                                   static_cast<uint>(settings.frame.glossy_rows));
   }
 
   std::mt19937 random{7};

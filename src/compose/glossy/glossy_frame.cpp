@@ -19,11 +19,6 @@ FieldQuery query_of(const Ray& ray, const Surface& met, const vec3& direction_ws
   return {met.position_ws, direction_ws, -ray.direction, distance(met.position_ws, ray.origin)};
 }
 
-/// Shares of the light of a hit's coats that further rays supply.
-CoatShares shares_of(const GBuffer& met, std::size_t i) {
-  return {met.coat_shares[i], met.clearcoat_shares[i]};
-}
-
 /// Whether the field supplies light of a surface's coat or clearcoat.
 bool asks_for_coats(const Surface& surface, const CoatShares& shares) {
   if (surface.gi_share <= 0.0f || has_no_coat(surface.reflectance)) return false;
@@ -51,15 +46,10 @@ void leave_scene(const SkyLevels& sky, const vec3& direction_ws, float spread, C
 }  // namespace
 
 void find_coat_shares(GBuffer& pixels) {
-  pixels.coat_shares.resize(pixels.size());
-  pixels.clearcoat_shares.clear();
+  pixels.coat_shares.assign(pixels.size(), CoatShares{});
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const bool shines = pixels.hit[i] != 0 && pixels.surfaces[i].gi_share > 0.0f;
-    pixels.coat_shares[i] = shines ? pixel_coat_share(pixels.surfaces[i].reflectance) : 0.0f;
-    if (!shines || !has_clearcoat(pixels.surfaces[i].reflectance.layers)) continue;
-    pixels.clearcoat_shares.resize(pixels.size());
-    pixels.clearcoat_shares[i] =
-        traced_coat_share(clearcoat_alone(pixels.surfaces[i].reflectance.layers));
+    if (pixels.hit[i] == 0 || pixels.surfaces[i].gi_share <= 0.0f) continue;
+    pixels.coat_shares[i] = pixel_coat_shares(pixels.surfaces[i].reflectance);
   }
 }
 
@@ -92,7 +82,7 @@ std::uint64_t Glossy::send_rays(const GlossySettings& settings,
       for (std::size_t i = begin; i < end; ++i) {
         const int y = rows.first_row + static_cast<int>(i / width);
         const Surface& surface = seen.surfaces[i];
-        if (!traces_coat(surface.reflectance, seen.coat_shares[i], y, sample, rows_between)) {
+        if (!traces_coat(surface.reflectance, seen.coat_shares[i].coat, y, sample, rows_between)) {
           continue;
         }
         const vec2 u =
@@ -127,8 +117,7 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
   met_.surfaces.resize(rays_.size());
   met_.hit.resize(rays_.size());
   met_.to_viewer_ws.resize(rays_.size());
-  met_.coat_shares.assign(rays_.size(), 0.0f);
-  met_.clearcoat_shares.assign(rays_.size(), 0.0f);
+  met_.coat_shares.assign(rays_.size(), CoatShares{});
   parallel_chunks(rays_.size(), kCostlyPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<Ray> rays;
     std::vector<std::size_t> pixels;
@@ -166,12 +155,10 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
       meet_emitter(path, surface.emission,
                    static_cast<uint>(settings.frame.reflected_emissive_samples),
                    static_cast<uint>(settings.frame.emissive_samples), rays_[i]);
-      const CoatShares shares =
+      met_.coat_shares[i] =
           regularize_lobes(dot(surface.normal_ws, met_.to_viewer_ws[i]),
                            settings.field != nullptr ? surface.gi_share : 0.0f, bounce,
                            surface.transmission, met_.surfaces[i].reflectance, path);
-      met_.coat_shares[i] = shares.coat;
-      met_.clearcoat_shares[i] = shares.clearcoat;
     }
   });
   return traced;
@@ -198,8 +185,8 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
   for (std::size_t i = 0; i < met_.size(); ++i) {
     if (met_.hit[i] == 0) continue;
     const Surface& surface = met_.surfaces[i];
-    if (!asks_for_coats(surface, shares_of(met_, i))) continue;
-    ask(i, coats_direction(surface.reflectance, shares_of(met_, i), surface.normal_ws,
+    if (!asks_for_coats(surface, met_.coat_shares[i])) continue;
+    ask(i, coats_direction(surface.reflectance, met_.coat_shares[i], surface.normal_ws,
                            met_.to_viewer_ws[i]));
   }
   answers_.assign(queries_.size(), vec3(0.0f));
@@ -212,7 +199,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
     const vec3 light = k < of_bases ? reflected_indirect(surface.reflectance, n_dot_v,
                                                          surface.gi_share * answers_[k])
                                     : coats_light(surface.reflectance, n_dot_v, surface.gi_share,
-                                                  shares_of(met_, i), answers_[k]);
+                                                  met_.coat_shares[i], answers_[k]);
     add_radiance(paths_.paths[i], light, rays_[i]);
   }
   const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);
@@ -227,7 +214,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
       const RandomStream random = make_random_stream(
           first_index + static_cast<uint>(i), coat_salt(salt_, bounce), ~settings.frame.seed);
       const NextRay next =
-          go_on(surface.transmission, surface.reflectance, shares_of(met_, i), surface.normal_ws,
+          go_on(surface.transmission, surface.reflectance, met_.coat_shares[i], surface.normal_ws,
                 surface.geometric_normal_ws, met_.to_viewer_ws[i], bounce, random, path);
       if (path.pdf <= 0.0f) continue;
       paths_.next[i] = ray_from(surface, next);
@@ -271,9 +258,8 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
                            CoatLight& light) {
   light.clear();
   if (!traces_coats(request)) return 0;
-  const std::vector<float>& shares = pixels.coat_shares;
-  const auto shines = [](float share) { return share > 0.0f; };
-  if (std::none_of(shares.begin(), shares.end(), shines)) return 0;
+  const auto shines = [](const CoatShares& shares) { return shares.coat > 0.0f; };
+  if (std::ranges::none_of(pixels.coat_shares, shines)) return 0;
   const FrameSettings& settings = request.settings;
   FrameSettings drawing = settings;
   if (kind == CoatKind::clearcoat) {

@@ -24,7 +24,7 @@ inline int glossy_halo(int rows) {
   return kReuse * rows;
 }
 
-/// Fills in GBuffer::coat_shares: the share of each pixel's coat that rays light, 0 to 1.
+/// Fills in GBuffer::coat_shares.
 void find_coat_shares(GBuffer& pixels);
 
 /// The paths of the rays of pixels, one entry a pixel.

@@ -59,7 +59,7 @@ void RayReuse::lay_out(const GlossySettings& settings, std::span<const GlossyRow
       for (int x = 0; x < width; ++x) {
         const std::size_t i = begin * width + x;
         const CoatRay& ray = rays[static_cast<std::size_t>(row) * width + x];
-        if (ray.pdf == 0.0f && rows.pixels.coat_shares[i] <= 0.0f) {
+        if (ray.pdf == 0.0f && rows.pixels.coat_shares[i].coat <= 0.0f) {
           set_no_coat(coats_, row, x);
         } else {
           set_coat(coats_, row, x, lobe_of(rows.pixels, i), ray);
@@ -88,7 +88,7 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
     sums.resize(kSumPlanes, width, 1);
     for (int x = 0; x < width; ++x) {
       const std::size_t i = begin * width + x;
-      if (pixels.coat_shares[i] <= 0.0f) continue;
+      if (pixels.coat_shares[i].coat <= 0.0f) continue;
       const Surface& surface = pixels.surfaces[i];
       const CoatRay& own = rays[static_cast<std::size_t>(y - first_row) * width + x];
       CoatReceiver at{
@@ -109,7 +109,7 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
     reuse_row({coats_, asked, y - first_row, 0, width, neighbours}, sums);
     for (std::size_t k = 0; k < receivers.size(); ++k) {
       const std::size_t i = begin * width + places[k];
-      reflected.light[i] = pixels.coat_shares[i] *
+      reflected.light[i] = pixels.coat_shares[i].coat *
                            light_by_rays(reflected_rays(receivers[k], sums_of(sums, 0, places[k])));
       if (!settings.frame.denoise) continue;
       reflected.inverse_distances[i] =

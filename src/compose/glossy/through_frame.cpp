@@ -56,7 +56,7 @@ void Glossy::keep_behind(const GlossySettings& settings, const KeptBehind& kept)
       seen.positions_ws[pixel] = surface.position_ws;
       seen.normals_ws[pixel] = surface.normal_ws;
       seen.coat_to_viewer_ws[pixel] = met_.to_viewer_ws[i];
-      seen.coat_alphas[pixel] = alpha_behind(surface.reflectance, met_.coat_shares[i]);
+      seen.coat_alphas[pixel] = alpha_behind(surface.reflectance, met_.coat_shares[i].coat);
       seen.coat_albedo[pixel] = coat_albedo_behind(path, surface.reflectance,
                                                    dot(surface.normal_ws, met_.to_viewer_ws[i]));
       if (!direct_.sky.empty()) {
@@ -84,17 +84,16 @@ void Glossy::split_paths(const GlossySettings& settings, std::uint32_t bounce) {
       if (met_.hit[i] == 0) continue;
       const Surface& surface = met_.surfaces[i];
       const float n_dot_v = dot(surface.normal_ws, met_.to_viewer_ws[i]);
-      if (!forks(paths_.paths[i], surface.transmission, surface.reflectance, met_.coat_shares[i],
-                 n_dot_v, bounce)) {
+      if (!forks(paths_.paths[i], surface.transmission, surface.reflectance,
+                 met_.coat_shares[i].coat, n_dot_v, bounce)) {
         continue;
       }
       const RandomStream random = make_random_stream(
           first_index + static_cast<uint>(i), coat_salt(salt_, bounce), ~settings.frame.seed);
       const NextRay next =
-          go_on_reflected(surface.transmission, surface.reflectance,
-                          {met_.coat_shares[i], met_.clearcoat_shares[i]}, surface.normal_ws,
-                          surface.geometric_normal_ws, met_.to_viewer_ws[i], random,
-                          paths_.paths[i], forks_.paths[i]);
+          go_on_reflected(surface.transmission, surface.reflectance, met_.coat_shares[i],
+                          surface.normal_ws, surface.geometric_normal_ws, met_.to_viewer_ws[i],
+                          random, paths_.paths[i], forks_.paths[i]);
       forks_.next[i] = ray_from(surface, next);
       forks_.cones[i] = reflected_cone(paths_.cones[i], forks_.paths[i].pdf);
     }

@@ -47,7 +47,7 @@ void main() {
   args.seen.at[0].depths.at[pixel] = distance(point.position_ws, args.camera_ws);
   args.seen.at[0].positions_ws.at[pixel] = point.position_ws;
   args.seen.at[0].normals_ws.at[pixel] = point.normal_ws;
-  float alpha = alpha_behind(surface.reflectance, surface.coat_share);
+  float alpha = alpha_behind(surface.reflectance, surface.coat_shares.coat);
   if (alpha > 0.0f) {
     // The distance to what it reflects is known once all its rays have hit something
     args.seen.at[0].coat_lobes.at[pixel] =

@@ -138,7 +138,7 @@ void SurfelInvalidation::retrace(int probe, const vec3& origin, ProbeTrace& trac
     const float distance = surfel.distance_from(origin);
     const bool other_material = !sky && edits_.materials[surfel.material] != 0;
     // The mirror's place and material are not stored: the edits may concern them
-    const bool mirrored = surfel.reflected_at > 0.0f;
+    const bool mirrored = surfel.mirror_distance > 0.0f;
     if (!other_material && !tinted && !mirrored &&
         !edits_.boxes.crossed_by(origin, direction, distance)) {
       continue;
@@ -154,7 +154,7 @@ void SurfelInvalidation::retrace(int probe, const vec3& origin, ProbeTrace& trac
     ++probe_rays;
     if (found == surfel) continue;
     const bool moved = found.position_ws != surfel.position_ws || found.kind != surfel.kind ||
-                       found.reflected_at != surfel.reflected_at;
+                       found.mirror_distance != surfel.mirror_distance;
     outcome.moved =
         outcome.moved || found.distance_from(origin) != distance || found.kind != surfel.kind;
     // Lookups depend on the position, the normal, and whether the surfel reflects the field's light

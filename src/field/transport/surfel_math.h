@@ -23,7 +23,7 @@ struct SurfelRecord {
   uint geometric_normal_ws;
   uint kind;
   float gi_share;
-  float reflected_at;
+  float mirror_distance;
 };
 
 /// The surfel of a ray that ended at a point, with the shaded `hit`. `irradiance` is the direct
@@ -41,20 +41,21 @@ LAMBENT_FN SurfelRecord surfel_record(vec3 position_ws, vec3 normal_ws, vec3 geo
   surfel.geometric_normal_ws = encode_unit_vector(geometric_normal_ws);
   surfel.kind = sky ? kSurfelSky : counts ? kSurfelSurface : kSurfelSolidSide;
   surfel.gi_share = hit.gi_share;
-  surfel.reflected_at = hit.reflected_at;
+  surfel.mirror_distance = hit.mirror_distance;
   return surfel;
 }
 
 /// The distance that a probe's ray counts as [m], to what it hit first. `length` is that from the
 /// probe to the surfel.
-LAMBENT_FN float first_distance(float reflected_at, float length) {
-  return reflected_at > 0.0f ? reflected_at : length;
+LAMBENT_FN float first_hit_distance(float mirror_distance, float length) {
+  return mirror_distance > 0.0f ? mirror_distance : length;
 }
 
-/// The direction from a surfel to the viewer of its lookup: against the ray, or, where mirrors show
-/// the surfel, along its normal, as their place is not kept.
-LAMBENT_FN vec3 surfel_viewer(float reflected_at, vec3 normal_ws, vec3 ray_direction) {
-  return reflected_at > 0.0f ? normal_ws : -ray_direction;
+/// The direction from a surfel to the viewer of its lookup: against the probe's ray. Where a mirror
+/// shows the surfel, its viewer is not stored, and the direction is the normal. The air along the
+/// normal is then assumed to be free, as far as the surfel is from the probe.
+LAMBENT_FN vec3 surfel_viewer(float mirror_distance, vec3 normal_ws, vec3 ray_direction) {
+  return mirror_distance > 0.0f ? normal_ws : -ray_direction;
 }
 
 LAMBENT_END

@@ -51,12 +51,12 @@ std::size_t ProbeTrace::bytes() const {
 
 float Surfel::distance_from(const vec3& origin_ws) const {
   if (kind == SurfelKind::sky) return kInfiniteDistance;
-  return first_distance(reflected_at, distance(position_ws, origin_ws));
+  return first_hit_distance(mirror_distance, distance(position_ws, origin_ws));
 }
 
 FieldQuery Surfel::query_from(const vec3& origin_ws, const vec3& ray_direction) const {
   const vec3 normal = decode_unit_vector(normal_ws);
-  return {position_ws, normal, surfel_viewer(reflected_at, normal, ray_direction),
+  return {position_ws, normal, surfel_viewer(mirror_distance, normal, ray_direction),
           distance(position_ws, origin_ws)};
 }
 
@@ -72,7 +72,7 @@ Surfel make_surfel(const ShadedHit& hit) {
           surfel.geometric_normal_ws,
           static_cast<SurfelKind>(surfel.kind),
           surfel.gi_share,
-          surfel.reflected_at,
+          surfel.mirror_distance,
           hit.point.albedo_shape};
 }
 

@@ -35,7 +35,7 @@ struct Surfel {
   SurfelKind kind;
   float gi_share;  ///< Share of the field's irradiance that it receives, 0 to 1; see Surface.
   /// Distance along the ray of the first mirror, where a mirror shows the surfel [m]; else 0.
-  float reflected_at;
+  float mirror_distance;
   uint albedo_shape = 0;  ///< See LitPoint.
 
   bool operator==(const Surfel&) const = default;

@@ -32,7 +32,7 @@ SurfelRecord to_record(const Surfel& surfel) {
           surfel.geometric_normal_ws,
           static_cast<uint>(surfel.kind),
           surfel.gi_share,
-          surfel.reflected_at};
+          surfel.mirror_distance};
 }
 
 /// The matrix of tile_fit.h as the product needs it: rows padded to whole lane groups, columns to

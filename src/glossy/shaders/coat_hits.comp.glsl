@@ -47,14 +47,12 @@ void main() {
   args.coat_rays.at[i] = ray;
   float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
   float gi_share = args.has_field != 0u ? surface.gi_share : 0.0f;
-  CoatShares shares = regularize_lobes(n_dot_v, gi_share, args.bounce, surface.transmission,
-                                       surface.reflectance, path);
-  surface.coat_share = shares.coat;
-  surface.clearcoat_share = shares.clearcoat;
+  surface.coat_shares = regularize_lobes(n_dot_v, gi_share, args.bounce, surface.transmission,
+                                         surface.reflectance, path);
   if (samples_lights_behind(path, surface.transmission)) surface.flags |= kSurfaceSamplesBehind;
   args.paths.at[k] = path;
   args.surfaces.at[k] = surface;
   args.points.at[k].random_index = args.first_index + i;
-  args.queries.at[2u * k + 1u].normal_ws =
-      coats_direction(surface.reflectance, shares, point.normal_ws, surface.to_viewer_ws);
+  args.queries.at[2u * k + 1u].normal_ws = coats_direction(surface.reflectance, surface.coat_shares,
+                                                           point.normal_ws, surface.to_viewer_ws);
 }

@@ -18,7 +18,7 @@ void main() {
   LitPointRecord point = args.points.at[k];
   CoatPath path = args.paths.at[k];
   float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
-  CoatShares shares = CoatShares(surface.coat_share, surface.clearcoat_share);
+  CoatShares shares = surface.coat_shares;
   vec3 light =
       reflected_indirect(surface.reflectance, n_dot_v, surface.gi_share * args.field.at[2u * k]) +
       coats_light(surface.reflectance, n_dot_v, surface.gi_share, shares,

@@ -16,7 +16,7 @@ void main() {
       CoatRay(vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
   PixelSurfaceRecord surface = args.surfaces.at[i];
   uvec2 pixel = uvec2(i % args.width, args.first_row + i / args.width);
-  if (!traces_coat(surface.reflectance, surface.coat_share, int(pixel.y), args.sample_index,
+  if (!traces_coat(surface.reflectance, surface.coat_shares.coat, int(pixel.y), args.sample_index,
                    args.rows)) {
     return;
   }

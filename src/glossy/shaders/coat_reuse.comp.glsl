@@ -42,7 +42,7 @@ void main() {
   ivec2 pixel = ivec2(k % args.width, args.band_row + k / args.width);
   uint i = index_of(args, pixel);
   PixelSurfaceRecord surface = args.surfaces.at[i];
-  if (surface.coat_share <= 0.0f) return;
+  if (surface.coat_shares.coat <= 0.0f) return;
   CameraRecord camera;
   camera.axes = mat3(1.0f);
   camera.axes[2] = args.camera_back;
@@ -57,7 +57,7 @@ void main() {
   at.inverse_tolerance = inverse_plane_tolerance(camera, at.lobe.position_ws);
   at.own = fetch_ray(args, pixel);
   find_lobe(at);
-  vec4 light = surface.coat_share * reuse_rays(args, pixel, at, args.sample_index, args.rows);
+  vec4 light = surface.coat_shares.coat * reuse_rays(args, pixel, at, args.sample_index, args.rows);
   if (args.has_sky != 0u && light.w > 0.0f) light += vec4(args.sky.at[k], 0.0f);
   args.light.at[k] = light;
   if (args.finds_distances == 0u) return;

@@ -17,6 +17,6 @@ void main() {
   if ((surface.flags & kSurfaceMissed) != 0u) return;
   SurfaceLayers layers = surface.reflectance.layers;
   args.points.at[i].normal_ws = clearcoat_normal_ws(layers, args.points.at[i].normal_ws);
-  args.surfaces.at[i].coat_share = surface.clearcoat_share;
+  args.surfaces.at[i].coat_shares.coat = surface.coat_shares.clearcoat;
   args.surfaces.at[i].reflectance = clearcoat_alone(layers);
 }

@@ -17,17 +17,16 @@ void main() {
   if ((surface.flags & kSurfaceMissed) != 0u) return;
   LitPointRecord point = args.points.at[k];
   CoatPath path = args.paths.at[k];
-  if (!forks(path, surface.transmission, surface.reflectance, surface.coat_share,
+  if (!forks(path, surface.transmission, surface.reflectance, surface.coat_shares.coat,
              dot(point.normal_ws, surface.to_viewer_ws), args.bounce)) {
     return;
   }
   uint i = args.pixels.at[k];
   RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
   CoatPath branch;
-  NextRay next =
-      go_on_reflected(surface.transmission, surface.reflectance,
-                      CoatShares(surface.coat_share, surface.clearcoat_share), point.normal_ws,
-                      point.geometric_normal_ws, surface.to_viewer_ws, random, path, branch);
+  NextRay next = go_on_reflected(surface.transmission, surface.reflectance, surface.coat_shares,
+                                 point.normal_ws, point.geometric_normal_ws, surface.to_viewer_ws,
+                                 random, path, branch);
   args.paths.at[k].fork = path.fork;
   if (branch.pdf > 0.0f) append_path(args.reflected, i, branch, surface.cone, point, next);
 }

@@ -82,7 +82,7 @@ struct LitHit {
 /// the origin of the ray that hit it [m].
 LAMBENT_FN LitHit shown_by_mirror(LitHit mirror, LitHit shown, float distance) {
   LitHit both = mirror;
-  if (both.hit.reflected_at <= 0.0f) both.hit.reflected_at = distance;
+  if (both.hit.mirror_distance <= 0.0f) both.hit.mirror_distance = distance;
   both.hit.gi_share = 0.0f;
   vec3 reflectance = kPi * mirror.hit.gi_share * mirror.hit.albedo_over_pi;
   if ((shown.hit.flags & kSurfaceMissed) != 0u) {

@@ -3,7 +3,6 @@
 // their unoccluded light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "raytracing/coat_share.h"
 #include "raytracing/vulkan/shading_records.h"
 #include "scene/light_tree/pick_lobe.h"
 #include "shared/phase.h"
@@ -14,8 +13,8 @@ struct ReflectingReceiver {
   LitPointRecord point;
   Reflectance reflectance;
   Frame frame;
-  vec3 to_viewer;    ///< Unit, in the frame.
-  vec2 coat_shares;  ///< Shares of coat and clearcoat; see sampled_reflection().
+  vec3 to_viewer;  ///< Unit, in the frame.
+  CoatShares shares;
   uint samples;
 };
 #define ReceiverRef ReflectingReceiver
@@ -23,8 +22,8 @@ struct ReflectingReceiver {
 #include "raytracing/shaders/direct_light.glsl"
 
 ReflectedPair reflection(ReflectingReceiver to, LightCandidate light) {
-  return sampled_reflection(to.reflectance, to.frame, to.to_viewer, to.point, light,
-                            CoatShares(to.coat_shares.x, to.coat_shares.y), to.samples);
+  return sampled_reflection(to.reflectance, to.frame, to.to_viewer, to.point, light, to.shares,
+                            to.samples);
 }
 
 float target_of(ReflectingReceiver receiver, LightCandidate light) {
@@ -52,7 +51,7 @@ void main() {
   Frame frame = make_frame(point.normal_ws);
   ReflectingReceiver receiver =
       ReflectingReceiver(point, surface.reflectance, frame, to_local(frame, surface.to_viewer_ws),
-                         vec2(surface.coat_share, surface.clearcoat_share), args.tree_samples);
+                         surface.coat_shares, args.tree_samples);
   bool asks = point.random_index != kNoDirectLight;
   RandomStream random = make_random_stream(point.random_index, args.salt, args.seed);
   uint slots = slot_count(args);
@@ -77,9 +76,8 @@ void main() {
     RayRecord ray = no_ray();
     ReflectedPair pair = ReflectedPair(vec3(0.0f), vec3(0.0f));
     if (asks) {
-      SkyReflector coats =
-          SkyReflector(surface.reflectance, frame, receiver.to_viewer, point.geometric_normal_ws,
-                       CoatShares(surface.coat_share, surface.clearcoat_share));
+      SkyReflector coats = SkyReflector(surface.reflectance, frame, receiver.to_viewer,
+                                        point.geometric_normal_ws, surface.coat_shares);
       SkyCandidate sky = sample_reflected_sky(args.scene.at[0].environment, coats, random);
       // Reflections see no fog, whether rays or samples find the sky
       pair = ReflectedPair(sky.light.clearcoat, sky.light.coat);

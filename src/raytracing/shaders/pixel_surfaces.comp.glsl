@@ -2,7 +2,6 @@
 // Finds the surfaces at the hits of rays that pixels show.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "raytracing/coat_share.h"
 #include "raytracing/shaders/sky.glsl"
 #include "raytracing/shaders/surface_at.glsl"
 #include "raytracing/vulkan/shading_records.h"
@@ -17,13 +16,11 @@ void main() {
   uint i = args.first + gl_GlobalInvocationID.x;
   RayRecord ray = args.rays.at[i];
   HitRecord hit = args.hits.at[i];
-  LitPointRecord point =
-      LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kNoDirectLight, 0u,
-                     vec3(0.0f), 0.0f);
-  PixelSurfaceRecord pixel = PixelSurfaceRecord(lambert_reflectance(vec3(0.0f)), vec3(0.0f),
-                                                -ray.direction_ws, no_transmission(),
-                                                RayCone(0.0f, 0.0f), kSurfaceMissed, 0.0f, 0.0f,
-                                                0.0f);
+  LitPointRecord point = LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws,
+                                        kNoDirectLight, 0u, vec3(0.0f), 0.0f);
+  PixelSurfaceRecord pixel = PixelSurfaceRecord(
+      lambert_reflectance(vec3(0.0f)), vec3(0.0f), -ray.direction_ws, no_transmission(),
+      RayCone(0.0f, 0.0f), kSurfaceMissed, 0.0f, CoatShares(0.0f, 0.0f));
   if (missed(hit)) {
     pixel.cone = args.cones.at[i];
     pixel.emission = sky_radiance_in_cone(args.scene.at[0].environment, ray.direction_ws,
@@ -43,8 +40,7 @@ void main() {
     pixel.flags = 0u;
     pixel.gi_share = surface.gi_share;
     if (args.traces_coats != 0u && surface.gi_share > 0.0f) {
-      pixel.coat_share = pixel_coat_share(surface.reflectance);
-      pixel.clearcoat_share = traced_coat_share(clearcoat_alone(surface.reflectance.layers));
+      pixel.coat_shares = pixel_coat_shares(surface.reflectance);
     }
   }
   args.points.at[i] = point;

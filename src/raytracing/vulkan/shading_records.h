@@ -3,6 +3,7 @@
 #ifndef LAMBENT_RAYTRACING_VULKAN_SHADING_RECORDS_H
 #define LAMBENT_RAYTRACING_VULKAN_SHADING_RECORDS_H
 
+#include "raytracing/coat_share.h"
 #include "raytracing/ray_cone.h"
 #include "raytracing/shaded_hit.h"
 #include "raytracing/vulkan/scene_records.h"
@@ -34,9 +35,8 @@ struct PixelSurfaceRecord {
   Transmission transmission;
   RayCone cone;  ///< The ray's cone: its width there and its growth.
   uint flags;
-  float gi_share;         ///< See Surface.
-  float coat_share;       ///< See GBuffer; 0: the coat's light does not come from rays.
-  float clearcoat_share;  ///< The same for the clearcoat.
+  float gi_share;  ///< See Surface.
+  CoatShares coat_shares;
 };
 
 LAMBENT_DEVICE_ARRAY(LitPointArray, LitPointRecord, 4)

@@ -11,7 +11,7 @@
 QueryRecord query_of_surfel(SurfelRecord surfel, vec3 origin_ws, vec3 ray_direction) {
   vec3 normal_ws = decode_unit_vector(surfel.normal_ws);
   return QueryRecord(surfel.position_ws, normal_ws,
-                     surfel_viewer(surfel.reflected_at, normal_ws, ray_direction),
+                     surfel_viewer(surfel.mirror_distance, normal_ws, ray_direction),
                      distance(surfel.position_ws, origin_ws));
 }
 

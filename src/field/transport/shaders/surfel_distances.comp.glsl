@@ -4,9 +4,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/placement/classify_math.h"
+#include "field/probes/shaders/volume_of.glsl"
 #include "field/transport/blend_math.h"
 #include "field/transport/shaders/lane_group.glsl"
-#include "field/probes/shaders/volume_of.glsl"
 
 layout(local_size_x = kGroupLanes) in;
 layout(push_constant, scalar) uniform Push {
@@ -31,7 +31,7 @@ void main() {
       float seen =
           surfel.kind == kSurfelSky
               ? farthest
-              : first_distance(surfel.reflected_at, length(surfel.position_ws - origin_ws));
+              : first_hit_distance(surfel.mirror_distance, length(surfel.position_ws - origin_ws));
       counted = counted_distance(seen, back_face, farthest);
       back_faces += int(back_face);
     }

@@ -19,12 +19,12 @@ void main() {
   ShadedHitRecord hit = args.shaded.at[i];
   RayRecord ray = no_ray();
   // Rays that met no mirror before have none behind it
-  bool first_or_behind = args.mirrors == 0u || hit.reflected_at > 0.0f;
+  bool first_or_behind = args.mirrors == 0u || hit.mirror_distance > 0.0f;
   if (first_or_behind && goes_on(hit, point.albedo_shape, point.normal_ws, point.to_viewer_ws)) {
     RandomStream random = make_random_stream(point.random_index, args.salt, args.seed);
-    vec3 direction_ws = sample_mirror(point.albedo_shape, point.normal_ws,
-                                      point.geometric_normal_ws, point.to_viewer_ws,
-                                      next_uniform2(random));
+    vec3 direction_ws =
+        sample_mirror(point.albedo_shape, point.normal_ws, point.geometric_normal_ws,
+                      point.to_viewer_ws, next_uniform2(random));
     ray = RayRecord(offset_ray_origin(point.position_ws, point.geometric_normal_ws), 0.0f,
                     direction_ws, uintBitsToFloat(kMissedDistanceBits), args.rays.at[i].mask);
   }
