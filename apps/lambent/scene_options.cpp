@@ -176,7 +176,7 @@ std::string describe(const View& view) {
       eye - std::max(glm::length(eye), 1.0f) * glm::vec3(view.camera.world_from_view[2]);
   char text[256];
   std::snprintf(text, sizeof text, "%s, as --eye=%.5g,%.5g,%.5g --target=%.5g,%.5g,%.5g --fov %.3g",
-                view.from == View::From::inside ? "in the room" : "the whole object", eye.x, eye.y,
+                view.from == View::From::inside ? "inside" : "the whole object", eye.x, eye.y,
                 eye.z, target.x, target.y, target.z, glm::degrees(view.camera.vertical_fov));
   return text;
 }

@@ -24,7 +24,8 @@ constexpr float kMinEmissionRatio = 0.1f;
 // Lamps, such as a photographer's soft boxes, differ from signs in that they light nearly all of a
 // view, at least the first share of it, and are brighter than what glTF files emit without
 // KHR_materials_emissive_strength [W/(m^2 sr)]. Beside them, the view may be darker: a hundredth is
-// still visible where they are white.
+// still visible where they are white. Courts and streets are theirs, too, where they light nearly
+// all: others have lost their sun.
 constexpr float kMinLitByLamps = 0.9f, kMaxSignRadiance = 1.0f, kMinLampRatio = 0.01f;
 // A camera is indoors where at least this share of the directions around it end at a surface.
 constexpr float kMinEnclosure = 0.75f;
@@ -192,12 +193,13 @@ FirstLight choose_first_light(const World& world, const Camera& camera) {
   const SeenView view = sample_view(world, camera);
   const ViewLight light = measure_view_light(world, view);
   const bool indoors = enclosure(world, camera) >= kMinEnclosure;
-  const bool lit_by_lamps = light.lit_by_emission >= kMinLitByLamps &&
-                            light.emitter_radiance > kMaxSignRadiance &&
+  const bool nearly_all_lit = light.lit_by_emission >= kMinLitByLamps;
+  const bool lit_by_lamps = nearly_all_lit && light.emitter_radiance > kMaxSignRadiance &&
                             light.emission_ratio >= kMinLampRatio;
-  if (light.lit_by_emission >= kMinLitShare &&
-      (indoors || lit_by_lamps || light.emission_ratio >= kMinEmissionRatio)) {
-    return FirstLight::scene;
+  if (light.lit_by_emission >= kMinLitShare) {
+    const bool lit = indoors ? nearly_all_lit || !has_court(world, false)
+                             : lit_by_lamps || light.emission_ratio >= kMinEmissionRatio;
+    if (lit) return FirstLight::scene;
   }
   if (indoors) {
     const bool closed = light.sky_visibility <= kMaxSkyIndoors && !has_court(world, true);

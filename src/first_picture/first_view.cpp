@@ -8,6 +8,7 @@
 #include "first_picture/views.h"
 #include "lambent/first_picture.h"
 #include "raytracing/camera_rays.h"
+#include "raytracing/world_access.h"
 
 namespace lambent {
 namespace {
@@ -31,6 +32,13 @@ Expected<void> check(const FirstViewSettings& settings) {
     return fail("", "aspect", "must be above 0");
   }
   return {};
+}
+
+/// Whether a view needs light of ours although the scene has surfaces that emit light.
+bool lacks_light(const World& world, const Camera& camera) {
+  if (emissive_of(world).empty()) return false;
+  const FirstLight light = choose_first_light(world, camera);
+  return light == FirstLight::sun || light == FirstLight::studio || light == FirstLight::lamps;
 }
 
 }  // namespace
@@ -64,7 +72,15 @@ Expected<FirstView> first_view(const World& world, const FirstViewSettings& sett
     const auto inside = inside_view(world, survey, subject.bounds, room_fov, settings.aspect);
     if (inside) return FirstView{*inside, true};
   }
-  return FirstView{outside_view(world, subject, object_fov, settings.aspect)};
+  const Camera outside = outside_view(world, subject, object_fov, settings.aspect);
+  // Windows and signs light a town at night as its streets show it
+  if (lacks_light(world, outside)) {
+    const auto street = street_view(world, survey, subject.bounds, room_fov, settings.aspect);
+    if (street && choose_first_light(world, *street) == FirstLight::scene) {
+      return FirstView{*street, true};
+    }
+  }
+  return FirstView{outside};
 }
 
 }  // namespace lambent

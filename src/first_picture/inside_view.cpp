@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <iterator>
 #include <span>
 #include <unordered_set>
 #include <vector>
@@ -18,8 +19,9 @@ namespace lambent {
 namespace {
 
 // In rooms of these heights [m], eyes are at the height of a standing person [m]; in others, whose
-// unit is not the metre or which are models of rooms, at a share of the room's height.
-constexpr float kMinRoomHeight = 1.9f, kMaxRoomHeight = 20.0f;
+// unit is not the metre or which are models of rooms, at a share of the room's height. Streets and
+// courts may be deeper than rooms are high.
+constexpr float kMinRoomHeight = 1.9f, kMaxRoomHeight = 20.0f, kMaxStreetDepth = 100.0f;
 constexpr float kEyeHeight = 1.6f;
 constexpr float kEyeShareOfHeight = 0.45f;
 // Highest eye in a room of human scale, as a share of its height.
@@ -47,8 +49,9 @@ constexpr float kClearance = 0.015f, kNear = 0.07f, kDeep = 0.5f;
 constexpr std::uint32_t kLitViewSeed = 4;
 // A larger share of sky than this counts against a view.
 constexpr float kMaxSky = 0.1f;
-// Weights of a view's score: median depth, detail by the number of different triangles, and the
-// share that the scene's own lights reach, against what is near, sky, and backs of surfaces.
+// Weights of a view's score: mean depth of what is not sky, detail by the number of different
+// triangles, and the share that the scene's own lights reach, against what is near, sky, and backs
+// of surfaces.
 constexpr float kDepthWeight = 2.0f, kDetailWeight = 0.8f, kLitWeight = 0.6f, kNearWeight = 1.5f,
                 kSkyWeight = 1.5f, kBackWeight = 0.8f;
 // A view with less depth than this share of the diagonal, or with more backs, is rejected.
@@ -58,9 +61,9 @@ float height_of(const OpenPlace& place) {
   return place.ceiling - place.floor;
 }
 
-/// Whether a height is that of a room in metres.
-bool is_room_height(float height) {
-  return height >= kMinRoomHeight && height <= kMaxRoomHeight;
+/// Whether a height is that of a room, or of the houses along a street, in metres.
+bool is_room_height(float height, bool open_above) {
+  return height >= kMinRoomHeight && height <= (open_above ? kMaxStreetDepth : kMaxRoomHeight);
 }
 
 /// The first places, at most `most`, where an observer could stand.
@@ -71,7 +74,7 @@ std::vector<OpenPlace> standing_places(std::span<const OpenPlace> sheltered, std
   const auto median = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
   std::nth_element(heights.begin(), median, heights.end());
   float least = kStandingShare * *median;
-  if (is_room_height(*median)) least = std::min(least, kMinRoomHeight);
+  if (is_room_height(*median, false)) least = std::min(least, kMinRoomHeight);
   std::vector<OpenPlace> standing;
   for (const OpenPlace& place : sheltered) {
     if (standing.size() == most) break;
@@ -83,7 +86,7 @@ std::vector<OpenPlace> standing_places(std::span<const OpenPlace> sheltered, std
 glm::vec3 eye_at(const OpenPlace& place) {
   const float height = height_of(place);
   float eye = kEyeShareOfHeight * height;
-  if (is_room_height(height)) {
+  if (is_room_height(height, place.open_above)) {
     eye = std::min(kEyeHeight, kMaxEyeShareOfHeight * height);
   }
   return {place.position_ws.x, place.floor + eye, place.position_ws.z};
@@ -141,9 +144,8 @@ std::vector<std::uint8_t> find_lit(const World& world, std::span<const Ray> rays
 /// better. Minus infinity: the view is rejected.
 float score_view(const Scene& scene, const Panorama& panorama, int direction, float half_width,
                  float scale) {
-  std::vector<float> depths;
   std::unordered_set<std::uint64_t> triangles;
-  float near = 0.0f, sky = 0.0f, backs = 0.0f, lit = 0.0f, rays = 0.0f;
+  float depths = 0.0f, near = 0.0f, sky = 0.0f, backs = 0.0f, lit = 0.0f, rays = 0.0f;
   const float azimuth = kTwoPi * static_cast<float>(direction) / kViewDirections;
   for (std::size_t ring = 0; ring < kRings.size(); ++ring) {
     for (int i = 0; i < kRingRays; ++i) {
@@ -152,21 +154,19 @@ float score_view(const Scene& scene, const Panorama& panorama, int direction, fl
       const std::size_t at = ring * kRingRays + static_cast<std::size_t>(i);
       const Hit& hit = panorama.hits[at];
       rays += 1.0f;
-      depths.push_back(hit.distance);
       if (hit.missed()) {
         sky += 1.0f;
         continue;
       }
+      depths += std::min(hit.distance / scale, kDeep);
       if (hit.distance < kNear * scale) near += 1.0f;
       if (shows_back(scene, hit)) backs += 1.0f;
       if (panorama.lit[at] != 0) lit += 1.0f;
       triangles.insert(std::uint64_t{hit.instance} << 32 | hit.triangle);
     }
   }
-  if (rays == 0.0f || sky == rays || backs > kMaxBacks * rays) return -kInfiniteDistance;
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  const float depth = std::min(*middle / scale, kDeep);
+  if (sky == rays || backs > kMaxBacks * rays) return -kInfiniteDistance;
+  const float depth = depths / (rays - sky);
   if (depth < kMinDepth) return -kInfiniteDistance;
   // Count triangles logarithmically: a window in a wall matters more than one more leaf in a wood
   const float detail = std::log1p(static_cast<float>(triangles.size())) / std::log1p(rays);
@@ -218,6 +218,16 @@ std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
     }
   }
   return camera;
+}
+
+std::optional<Camera> street_view(const World& world, const SpaceSurvey& survey,
+                                  const Bounds& bounds, float vertical_fov, float aspect) {
+  SpaceSurvey streets;
+  std::ranges::copy_if(survey.sheltered, std::back_inserter(streets.sheltered),
+                       [](const OpenPlace& place) {
+                         return place.open_above && is_room_height(height_of(place), true);
+                       });
+  return inside_view(world, streets, bounds, vertical_fov, aspect);
 }
 
 }  // namespace lambent

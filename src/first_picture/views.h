@@ -18,4 +18,9 @@ Camera outside_view(const World& world, const Subject& subject, float vertical_f
 std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
                                   const Bounds& bounds, float vertical_fov, float aspect);
 
+/// The same from a street, court or other place below the open sky at a human scale; none where
+/// there is none.
+std::optional<Camera> street_view(const World& world, const SpaceSurvey& survey,
+                                  const Bounds& bounds, float vertical_fov, float aspect);
+
 }  // namespace lambent

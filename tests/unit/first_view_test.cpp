@@ -216,6 +216,55 @@ TEST(FirstView, StandsAtEyeHeightWhereARoomIsOfHumanScale) {
   EXPECT_NEAR(eye_of(view.camera).y, 1.6f, 0.2f);
 }
 
+/// Two rows of houses along a street, whose windows, if any, emit `radiance`.
+Scene street(float radiance) {
+  Scene scene =
+      scene_of({box_mesh({-20, -1, -30}, {20, 0, 30}), box_mesh({-16, 0, -30}, {-6, 14, 30}),
+                box_mesh({6, 0, -30}, {16, 22, 30})});
+  scene.materials.push_back(test::lambert(glm::vec3(0.0f), glm::vec3(radiance)));
+  for (int i = 0; i < 40; ++i) {
+    const float z = -28.0f + 3.0f * static_cast<float>(i % 20);
+    const float y = i < 20 ? 2.0f : 7.0f;
+    const bool left = i % 2 == 0;
+    test::add(scene, test::quad({left ? -5.98f : 5.98f, y, z}, {0, 1.5f, 0},
+                                {0, 0, left ? 1.5f : -1.5f}, 1));
+  }
+  return scene;
+}
+
+// From outside, the backs of the houses would need a sun.
+TEST(FirstView, StandsInAStreetThatItsWindowsLight) {
+  const Scene night = street(8.0f), day = street(0.0f);
+  const World world(night);
+  const FirstView view = first_view(world).value();
+  EXPECT_TRUE(view.inside);
+  EXPECT_NEAR(eye_of(view.camera).y, 1.6f, 0.2f);
+  EXPECT_LT(std::abs(eye_of(view.camera).x), 6.0f);
+  EXPECT_EQ(choose_first_light(world, view.camera), FirstLight::scene);
+  EXPECT_FALSE(first_view(World(day)).value().inside);
+}
+
+// A window is not what to look at from close by, however far one sees through it.
+TEST(FirstView, LooksIntoTheRoomRatherThanOutOfItsWindow) {
+  // A shaft with a window in its wall at +X
+  std::vector<Mesh> parts;
+  parts.push_back(box_mesh({-2, -0.1f, -2}, {2, 0, 2}));
+  parts.push_back(box_mesh({-2, 9, -2}, {2, 9.1f, 2}));
+  parts.push_back(box_mesh({-2.1f, 0, -2}, {-2, 9, 2}));
+  parts.push_back(box_mesh({-2, 0, -2.1f}, {2, 9, -2}));
+  parts.push_back(box_mesh({-2, 0, 2}, {2, 9, 2.1f}));
+  parts.push_back(box_mesh({2, 0, -2}, {2.1f, 0.8f, 2}));
+  parts.push_back(box_mesh({2, 3.2f, -2}, {2.1f, 9, 2}));
+  parts.push_back(box_mesh({2, 0.8f, -2}, {2.1f, 3.2f, -1.2f}));
+  parts.push_back(box_mesh({2, 0.8f, 1.2f}, {2.1f, 3.2f, 2}));
+  parts.push_back(box_mesh({-1.5f, 0, -1.9f}, {0, 0.7f, -1}));
+  const Scene scene = scene_of(std::move(parts));
+  const World world(scene);
+  const FirstView view = first_view(world).value();
+  ASSERT_TRUE(view.inside);
+  EXPECT_GT(coverage_of(world, view.camera).met, 0.85f);
+}
+
 TEST(FirstView, IsTheSameEveryTime) {
   const Scene scene = without_cameras("house");
   EXPECT_EQ(first_view(World(scene)).value().camera.world_from_view,
