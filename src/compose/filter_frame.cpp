@@ -68,9 +68,10 @@ void filter_coats(DenoiseView view, FilteredPixels& pixels) {
   assert(done);
 }
 
-/// Transmittance of the fog between the camera and a pixel of a band.
-float passed_by_fog(const BandToFilter& light, std::size_t pixel) {
-  return light.fog.empty() ? 1.0f : light.fog[pixel].w;
+/// Weight of a pixel's sample, dimmed by the fog before it.
+float weight_in_fog(const BandToFilter& light, std::size_t pixel) {
+  const float passed = light.fog.empty() ? 1.0f : light.fog[pixel].w;
+  return light.gbuffer.hits[pixel].sample_weight * passed;
 }
 
 /// Pixels of a band that are stored from index `first` on.
@@ -95,7 +96,7 @@ void keep_coats(const KeptBand& band, const GBuffer& surfaces, const CoatLight& 
       const vec3 albedo = filtered_coat_albedo(
           surface.reflectance, dot(surface.normal_ws, surfaces.to_viewer_ws[i]), light.w);
       coats.light[pixel] = vec3(light) / albedo;
-      coats.albedo[pixel] = passed_by_fog(band.light, i) * albedo;
+      coats.albedo[pixel] = weight_in_fog(band.light, i) * albedo;
       if (!coats.normals_ws.empty()) coats.normals_ws[pixel] = surface.normal_ws;
       coats.alphas[pixel] = surface.reflectance.alpha;
       coats.inverse_distances[pixel] = by_rays.inverse_distances[i];
@@ -165,9 +166,9 @@ void keep_highlights(const BandToFilter& light, std::size_t first, std::size_t c
             by_coat ? pixels.coats.inverse_distances[pixel]
                     : pixels.clearcoats.inverse_distances[pixel];
       }
-      const float passed = passed_by_fog(light, i);
+      const float weight = weight_in_fog(light, i);
       pixels.highlights[pixel] = light.direct.emitter_specular[i] / albedo;
-      pixels.highlight_albedo[pixel] = passed * albedo;
+      pixels.highlight_albedo[pixel] = weight * albedo;
     }
   });
 }
@@ -242,7 +243,7 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
   pixels.emitter_albedo.resize(emitters ? count : 0);
   pixels.emitter_levels.resize(emitters ? count : 0);
   pixels.indirect_albedo.resize(gathered ? count : 0);
-  pixels.receives.resize(gathered ? count : 0);
+  pixels.received_weight.resize(gathered ? count : 0);
   using Colors = std::span<const vec3>;
   using Floats = std::span<const float>;
   keep(Floats(light.direct.emitter_variance), first, count, pixels.emitter_variance);
@@ -262,7 +263,7 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
       pixels.normals_ws[pixel] = surface.normal_ws;
       pixels.geometric_normals_ws[pixel] = surface.geometric_normal_ws;
       pixels.depths[pixel] = seen ? view_depth(camera, surface.position_ws) : 0.0f;
-      const float passed = passed_by_fog(light, i);
+      const float weight = weight_in_fog(light, i);
       if (emitters) {
         FilteredEmitter emitter{};
         if (seen) {
@@ -270,7 +271,7 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
                                      light.direct.unoccluded[i]);
         }
         pixels.emitter_levels[pixel] = emitter.level;
-        pixels.emitter_albedo[pixel] = passed * emitter.albedo;
+        pixels.emitter_albedo[pixel] = weight * emitter.albedo;
         pixels.emitters[pixel] = emitter.light;
         if (!pixels.emitter_variance.empty()) {
           pixels.emitter_variance[pixel] =
@@ -278,11 +279,12 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
         }
       }
       if (gathered) {
-        pixels.receives[pixel] = surface.gi_share > 0.0f ? 1 : 0;
+        pixels.received_weight[pixel] =
+            surface.gi_share > 0.0f ? gbuffer.hits[i].sample_weight : 0.0f;
         pixels.looked_up[pixel] *= surface.gi_share;
         const float n_dot_v = seen ? dot(surface.normal_ws, gbuffer.to_viewer_ws[i]) : 0.0f;
         pixels.indirect_albedo[pixel] =
-            passed * reflected_indirect(surface.reflectance, n_dot_v, vec3(1.0f));
+            weight * reflected_indirect(surface.reflectance, n_dot_v, vec3(1.0f));
       }
     }
   });
@@ -333,10 +335,10 @@ void show_filtered(const FilteredPixels& pixels, const ShownPixels& shown, float
       }
       show_coat(pixels.coats, i, pixel, share, layers);
       show_coat(pixels.clearcoats, i, pixel, share, layers);
-      if (pixels.filtered_gathered.empty() || pixels.receives[i] == 0) continue;
+      if (pixels.filtered_gathered.empty() || pixels.received_weight[i] == 0.0f) continue;
       const vec3 irradiance = share * pixels.filtered_gathered[i];
       const vec3 indirect = pixels.indirect_albedo[i] * irradiance;
-      add(layers.irradiance, pixel, irradiance);
+      add(layers.irradiance, pixel, pixels.received_weight[i] * irradiance);
       add(layers.indirect, pixel, indirect);
       add(layers.all, pixel, indirect);
     }

@@ -35,7 +35,8 @@ struct FilteredPixels {
   // Light to be filtered, divided by the surfaces' albedo
   std::vector<glm::vec3> gathered, excess, looked_up, emitters;
   std::vector<float> gathered_variance, emitter_variance;
-  std::vector<std::uint8_t> receives;  ///< 1 where the pixel shows indirect light.
+  /// Hit::sample_weight where the pixel shows indirect light, else 0.
+  std::vector<float> received_weight;
   // Factors from filtered light to the camera's radiance, including the fog's transmittance
   std::vector<glm::vec3> indirect_albedo;
   std::vector<glm::vec3> emitter_albedo;  ///< Includes the factor emitter_levels.

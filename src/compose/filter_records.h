@@ -19,7 +19,7 @@ struct FilteredPixelsRecord {
   Vec3Array excess;
   Vec3Array looked_up;
   Vec3Array indirect_albedo;
-  UintArray receives;
+  FloatArray received_weight;
   Vec3Array emitters;
   FloatArray emitter_variance;
   Vec3Array emitter_albedo;

@@ -73,13 +73,14 @@ struct BandLight {
   std::vector<vec4> fog;                 // in front of the pixels, see fog_along(); or empty
 };
 
-/// Adds a band's sample to the layers, times `share`.
+/// Adds a band's sample to the layers, times `share_of_sample` and the weights of its pixels.
 void accumulate(const Camera& camera, const GBuffer& gbuffer, const BandLight& light,
-                const ShownPixels& shown, float share, Layers& layers) {
+                const ShownPixels& shown, float share_of_sample, Layers& layers) {
   const CameraRecord record = camera_record(camera, 1, 1);
   parallel_chunks(shown.count, kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t pixel = shown.first_in_layers + k, i = shown.first + k;
+      const float share = share_of_sample * gbuffer.hits[i].sample_weight;
       const vec3 fog = light.fog.empty() ? vec3(0.0f) : vec3(light.fog[i]);
       const float passed = light.fog.empty() ? 1.0f : light.fog[i].w;
       add(layers.fog, pixel, share * fog);

@@ -105,7 +105,7 @@ struct FilteredBuffers {
   FilteredPixelsRecord record;
   vulkan::Buffer addresses;  ///< Holds `record`.
   vulkan::Buffer positions_ws, normals_ws, geometric_normals_ws, depths;
-  vulkan::Buffer gathered, gathered_variance, excess, looked_up, indirect_albedo, receives;
+  vulkan::Buffer gathered, gathered_variance, excess, looked_up, indirect_albedo, received_weight;
   vulkan::Buffer emitters, emitter_variance, emitter_albedo, emitter_levels;
   vulkan::Buffer coats, coat_albedo, coat_lobes;
   vulkan::Buffer clearcoats, clearcoat_albedo, clearcoat_normals_ws, clearcoat_lobes;

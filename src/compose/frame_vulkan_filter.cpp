@@ -36,7 +36,7 @@ void FramePassesVulkan::begin_filter() {
   r.excess.address = room(gathered, sizeof(vec3), f.excess);
   r.looked_up.address = room(gathered, sizeof(vec3), f.looked_up);
   r.indirect_albedo.address = room(gathered, sizeof(vec3), f.indirect_albedo);
-  r.receives.address = room(gathered, sizeof(uint), f.receives);
+  r.received_weight.address = room(gathered, sizeof(float), f.received_weight);
   r.emitters.address = room(lit, sizeof(vec3), f.emitters);
   r.emitter_variance.address = room(lit, sizeof(float), f.emitter_variance);
   r.emitter_albedo.address = room(lit, sizeof(vec3), f.emitter_albedo);

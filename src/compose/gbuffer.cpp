@@ -39,7 +39,7 @@ void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings
       rays[x].mask = sample_mask(
           static_cast<uint>(row * width + x),
           sample_number(static_cast<uint>(sample), static_cast<uint>(settings.samples), jitter),
-          settings.seed);
+          static_cast<uint>(settings.samples), settings.seed);
     }
     tracer_of(world).closest_hits(rays, hits);
     prefetch_surfaces(world.scene(), hits);

@@ -50,11 +50,12 @@ const uint kMissedDistanceBits = 0x7F800000u;
 
 /// A ray's hit; see Hit in raytracer.h.
 struct HitRecord {
-  float distance;     ///< [m]; infinite: nothing was hit and the rest is undefined.
-  uint instance;      ///< Index into Scene::instances.
-  uint triangle;      ///< Index into the mesh's triangles.
-  vec2 barycentrics;  ///< Weights of the triangle's second and third vertex.
-  uint front_face;    ///< 1: the ray hit the side from which the vertices run counter-clockwise.
+  float distance;       ///< [m]; infinite: nothing was hit and the rest is undefined.
+  uint instance;        ///< Index into Scene::instances.
+  uint triangle;        ///< Index into the mesh's triangles.
+  vec2 barycentrics;    ///< Weights of the triangle's second and third vertex.
+  uint front_face;      ///< 1: the ray hit the side from which the vertices run counter-clockwise.
+  float sample_weight;  ///< See Hit.
 };
 
 LAMBENT_FN bool missed(HitRecord hit) {

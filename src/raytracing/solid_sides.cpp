@@ -52,6 +52,7 @@ std::vector<MiswoundMesh> miswound_meshes(const Scene& scene, const SolidSides& 
   std::vector<std::size_t> miswound(scene.meshes.size(), 0);
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const int mesh = scene.instances[i].mesh;
+    if (scene.materials[scene.meshes[mesh].material].double_sided) continue;
     std::size_t count = 0;
     for (std::uint32_t t = 0; t < scene.meshes[mesh].triangles.size(); ++t) {
       const std::uint32_t word = sides.words[sides.first_word[i] + solid_sides_word(t)];

@@ -71,8 +71,8 @@ struct MiswoundMesh {
   std::size_t triangles = 0;  ///< Number of such triangles, in the instance that has most.
 };
 
-/// The meshes whose winding contradicts, in whole or in part, which sides open space sees. Nothing
-/// in this library depends on it; other programs may cull such triangles.
+/// The single-sided meshes whose winding contradicts, in whole or in part, which sides open space
+/// sees. Nothing in this library depends on it; other programs may cull such triangles.
 std::vector<MiswoundMesh> miswound_meshes(const Scene& scene, const SolidSides& sides);
 
 /// Solid sides of a scene in which no side bounds solid matter.

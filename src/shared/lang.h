@@ -52,6 +52,7 @@ using glm::bitfieldReverse;
 using glm::clamp;
 using glm::cross;
 using glm::dot;
+using glm::findMSB;
 using glm::floatBitsToInt;
 using glm::floatBitsToUint;
 using glm::fract;

@@ -21,7 +21,7 @@ const float kPassed = 1.0f;
 
 /// Every other ray carries a pixel's sample.
 LAMBENT_FN uint mask_of_ray(uint ray) {
-  return ray % 2u == 0u ? 0xFFFFFFFFu : sample_mask(ray / 16u, ray / 2u, 3u);
+  return ray % 2u == 0u ? 0xFFFFFFFFu : sample_mask(ray / 16u, ray / 2u, 8u, 3u);
 }
 
 LAMBENT_END

@@ -130,7 +130,8 @@ TEST_F(FieldPasses, DistancesAreBlendedAsOnTheProcessor) {
     for (const TraceGroup& group : update.groups) {
       std::vector<HitRecord> records;
       for (const Hit& hit : group.hits) {
-        records.push_back({hit.distance, hit.instance, hit.triangle, {}, hit.front_face ? 1u : 0u});
+        records.push_back(
+            {hit.distance, hit.instance, hit.triangle, {}, hit.front_face ? 1u : 0u, 1.0f});
       }
       hits.push_back(vulkan::upload(device(), records, "hits"));
       const DeviceGroup part = {first, static_cast<int>(group.probes.size()), group.rays->rays()};

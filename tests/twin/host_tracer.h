@@ -56,7 +56,8 @@ inline Ray ray_of(const RayRecord& ray) {
   return {ray.origin_ws, ray.t_min, ray.direction_ws, ray.t_max, ray.mask};
 }
 inline HitRecord record_of(const Hit& hit) {
-  return {hit.distance, hit.instance, hit.triangle, hit.barycentrics, hit.front_face ? 1u : 0u};
+  return {hit.distance,     hit.instance, hit.triangle, hit.barycentrics, hit.front_face ? 1u : 0u,
+          hit.sample_weight};
 }
 
 }  // namespace lambent::test

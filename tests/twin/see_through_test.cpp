@@ -159,24 +159,26 @@ TEST_F(SeeThroughTwin, SamplesEndAtTheSameSurfaces) {
     const float x = (static_cast<float>(pixel % 30) + 0.3f) / 30.0f,
                 y = (static_cast<float>(pixel) + 0.6f) / kPixels;
     rays.push_back({glm::vec3(x, y, -1.0f), 0.0f, {0, 0, 1}});
-    rays.back().mask = sample_mask(static_cast<uint>(pixel), static_cast<uint>(i % kSamples), 3u);
+    rays.back().mask =
+        sample_mask(static_cast<uint>(pixel), static_cast<uint>(i % kSamples), kSamples, 3u);
   }
   std::vector<Hit> host(rays.size()), device_hits(rays.size());
   tracer_of(on_host).closest_hits(rays, host);
   tracer_of(on_device).closest_hits(rays, device_hits);
-  std::vector<int> ends(scene.instances.size(), 0);
+  std::vector<double> ends(scene.instances.size(), 0.0);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     ASSERT_FALSE(host[i].missed());
-    ++ends[host[i].instance];
+    ends[host[i].instance] += host[i].sample_weight;
     // Behind more sheets than are met in order, chance hangs on the last bits of a hit
     const bool ordered = host[i].instance < 2u + kMaxOrderedSurfaces && host[i].instance != 0;
     if (ordered) {
       ASSERT_EQ(device_hits[i].instance, host[i].instance) << "ray " << i;
+      ASSERT_NEAR(device_hits[i].sample_weight, host[i].sample_weight, 1e-4f) << "ray " << i;
     }
   }
-  // Of the rays beside the post a tenth ends at the first sheet, and so on
+  // Of the rays beside the post a tenth, by weight, ends at the first sheet, and so on
   const double beside = static_cast<double>(rays.size()) - ends[1];
-  EXPECT_GT(ends[1], 0);
+  EXPECT_GT(ends[1], 0.0);
   for (int i = 0; i < kSheets; ++i) {
     EXPECT_NEAR(ends[i + 2] / beside, 0.1 * std::pow(0.9, i), 0.01) << "sheet " << i;
   }

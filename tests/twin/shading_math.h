@@ -212,7 +212,7 @@ LAMBENT_FN void evaluate_textures(LAMBENT_INOUT(RandomStream) random,
   result.decisions.stops_blend = stops_ray(kAlphaBlend, 0.5f, alpha, distance) ? 1u : 0u;
   result.decisions.uniform_bits = floatBitsToUint(uniform_of_hit(barycentrics, distance, 7u));
   result.decisions.sample_bits =
-      floatBitsToUint(uniform_of_sample(sample_mask(floatBitsToUint(alpha), 5u, 3u)));
+      floatBitsToUint(uniform_of_sample(sample_mask(floatBitsToUint(alpha), 5u, 8u, 3u)));
 }
 
 LAMBENT_FN ShadingMath evaluate_shading_math(uint i) {

@@ -280,7 +280,8 @@ void expect_same_pixels(const vulkan::Device& device, const TwinWorld& twin, con
   for (int i = 0; i < frame.width * frame.height; ++i) {
     const glm::vec2 at = glm::vec2(i % frame.width, i / frame.width) + 0.5f;
     rays.push_back(camera_ray(camera, frame.width, frame.height, at.x, at.y));
-    rays.back().mask = sample_mask(static_cast<std::uint32_t>(i), 0, frame.seed);
+    rays.back().mask = sample_mask(static_cast<std::uint32_t>(i), 0,
+                                   static_cast<std::uint32_t>(frame.samples), frame.seed);
   }
   const auto count = static_cast<std::uint32_t>(rays.size());
   const test::UploadedHits hits =

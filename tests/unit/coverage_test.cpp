@@ -25,7 +25,7 @@ TEST(Coverage, SamplesOfAPixelLieInEqualParts) {
     for (const std::uint32_t samples : {2u, 4u, 8u, 64u, 256u}) {
       std::set<int> parts;
       for (std::uint32_t i = 0; i < samples; ++i) {
-        const float drawn = uniform_of_sample(sample_mask(pixel, i, kSeed));
+        const float drawn = uniform_of_sample(sample_mask(pixel, i, samples, kSeed));
         ASSERT_GE(drawn, 0.0f);
         ASSERT_LT(drawn, 1.0f);
         parts.insert(static_cast<int>(drawn * static_cast<float>(samples)));
@@ -35,21 +35,39 @@ TEST(Coverage, SamplesOfAPixelLieInEqualParts) {
   }
 }
 
-/// Of `samples` samples of a pixel, how many end at each of the surfaces, which cover `alphas` of
-/// what is before them, front to back; the last one counts those that end at none.
+/// The surface at which a pixel's sample ends, of those that cover `alphas` of what is before them,
+/// front to back; their number if it ends at none.
+std::size_t end_of_sample(OrderedCoverage& met, std::span<const float> alphas) {
+  std::size_t surface = 0;
+  while (surface < alphas.size() &&
+         !ends_sample(met, alphas[surface], static_cast<float>(surface + 1))) {
+    ++surface;
+  }
+  return surface;
+}
+
+/// Of `samples` samples of a pixel, how many end at each of the surfaces; the last one counts those
+/// that end at none.
 std::vector<int> ends_of_samples(std::uint32_t pixel, std::uint32_t samples,
                                  std::span<const float> alphas) {
   std::vector<int> ends(alphas.size() + 1, 0);
   for (std::uint32_t i = 0; i < samples; ++i) {
-    OrderedCoverage met = start_coverage(sample_mask(pixel, i, kSeed));
-    std::size_t surface = 0;
-    while (surface < alphas.size() &&
-           !ends_sample(met, alphas[surface], static_cast<float>(surface + 1))) {
-      ++surface;
-    }
-    ++ends[surface];
+    OrderedCoverage met = start_coverage(sample_mask(pixel, i, samples, kSeed));
+    ++ends[end_of_sample(met, alphas)];
   }
   return ends;
+}
+
+/// The weights of those samples, over their number.
+std::vector<float> weights_of_samples(std::uint32_t pixel, std::uint32_t samples,
+                                      std::span<const float> alphas) {
+  std::vector<float> weights(alphas.size() + 1, 0.0f);
+  for (std::uint32_t i = 0; i < samples; ++i) {
+    OrderedCoverage met = start_coverage(sample_mask(pixel, i, samples, kSeed));
+    const std::size_t end = end_of_sample(met, alphas);
+    weights[end] += sample_weight(met) / static_cast<float>(samples);
+  }
+  return weights;
 }
 
 // Panes in a row get the share of the samples that they have in the pixel, to the sample.
@@ -60,9 +78,38 @@ TEST(Coverage, PanesBehindOneAnotherGetTheirSharesOfTheSamples) {
   }
 }
 
+// However much a pane covers, each pixel shows that and no more. Behind several, or with few
+// samples, the mean over pixels does.
+TEST(Coverage, WeightsOfSamplesMakeUpForTheirNumber) {
+  constexpr std::uint32_t kPixels = 4000;
+  for (const float alpha : {0.01f, 0.15f, 0.3f, 0.5f, 0.77f, 0.99f}) {
+    for (const std::uint32_t samples : {4u, 8u, 16u, 64u}) {
+      for (std::uint32_t pixel = 0; pixel < 50; ++pixel) {
+        const auto weights = weights_of_samples(pixel, samples, std::vector{alpha});
+        EXPECT_NEAR(weights[0], alpha, 1e-5f) << samples << " samples, pixel " << pixel;
+        EXPECT_NEAR(weights[1], 1.0f - alpha, 1e-5f) << samples << " samples, pixel " << pixel;
+      }
+    }
+    const std::vector panes{alpha, 0.3f, alpha, 0.15f};
+    for (const std::uint32_t samples : {1u, 2u, 4u, 6u, 16u}) {
+      std::vector<double> means(panes.size() + 1, 0.0);
+      for (std::uint32_t pixel = 0; pixel < kPixels; ++pixel) {
+        const auto weights = weights_of_samples(pixel, samples, panes);
+        for (std::size_t i = 0; i < means.size(); ++i) means[i] += weights[i] / kPixels;
+      }
+      double open = 1.0;
+      for (std::size_t i = 0; i < panes.size(); ++i) {
+        EXPECT_NEAR(means[i], open * panes[i], 0.03) << samples << " samples, pane " << i;
+        open *= 1.0 - panes[i];
+      }
+      EXPECT_NEAR(means.back(), open, 0.03) << samples << " samples";
+    }
+  }
+}
+
 // Behind more surfaces than are met in order, rays go on by chance: they carry no sample any more.
 TEST(Coverage, ChanceDecidesBehindManySurfaces) {
-  OrderedCoverage met = start_coverage(sample_mask(5, 0, kSeed));
+  OrderedCoverage met = start_coverage(sample_mask(5, 0, 4, kSeed));
   for (std::uint32_t i = 0; i < kMaxOrderedSurfaces; ++i) {
     EXPECT_TRUE(carries_sample(met.ray_mask));
     ASSERT_FALSE(ends_sample(met, 0.0f, 1.0f));
@@ -72,22 +119,22 @@ TEST(Coverage, ChanceDecidesBehindManySurfaces) {
 }
 
 TEST(Coverage, OnlyRaysOfSamplesCarryOne) {
-  EXPECT_TRUE(carries_sample(sample_mask(0, 0, 0)));
-  EXPECT_TRUE(carries_sample(sample_mask(0xFFFFFFFFu, 0xFFFFFFFFu, 1)));
+  EXPECT_TRUE(carries_sample(sample_mask(0, 0, 1, 0)));
+  EXPECT_TRUE(carries_sample(sample_mask(0xFFFFFFFFu, 0xFFFFFFFFu, 0xFFFFFFFFu, 1)));
   for (const std::uint32_t mask : {kRayMeetsAll, kRayGathers, kRayOfProbe, kRayOfMotion, 0u}) {
     EXPECT_FALSE(carries_sample(mask));
   }
 }
 
-/// A picture, four samples a pixel, of what a square of 0.2 m emits, which stops a quarter of
-/// all rays, is made of `cells` x `cells` quads and turned by `turn` [rad] about +Y.
-Image quarter_pane(int cells, float turn) {
+/// A picture, four samples a pixel, of what a square of 0.2 m emits, which covers `alpha` of what
+/// is behind it, is made of `cells` x `cells` quads and turned by `turn` [rad] about +Y.
+Image pane(int cells, float turn, float alpha) {
   constexpr float kSide = 0.2f;
   Scene scene;
   Material pane;
   pane.unlit = true;
   pane.alpha_mode = AlphaMode::blend;
-  pane.base_color = glm::vec4(1.0f, 1.0f, 1.0f, 0.25f);
+  pane.base_color = glm::vec4(1.0f, 1.0f, 1.0f, alpha);
   pane.double_sided = true;
   scene.materials = {pane};
   scenes::MeshBuilder builder;
@@ -110,20 +157,22 @@ Image quarter_pane(int cells, float turn) {
   return *frame.image.find("emission");
 }
 
-/// Share of values that are not a quarter.
-float grain_of(const Image& seen) {
+/// Share of values that are not `alpha`.
+float grain_of(const Image& seen, float alpha) {
   const auto off = std::count_if(seen.pixels.begin(), seen.pixels.end(),
-                                 [](float value) { return std::abs(value - 0.25f) > 1e-6f; });
+                                 [&](float value) { return std::abs(value - alpha) > 1e-6f; });
   return static_cast<float>(off) / static_cast<float>(seen.pixels.size());
 }
 
-// A pane that stops a quarter of all rays shows the same at every pixel of four samples, also where
-// its triangles are smaller than pixels, and where it is seen aslant.
-TEST(Coverage, PanesOfAQuarterHaveNoGrainInFourSamples) {
-  EXPECT_EQ(grain_of(quarter_pane(1, 0.0f)), 0.0f);
-  EXPECT_EQ(grain_of(quarter_pane(400, 0.0f)), 0.0f);
-  EXPECT_EQ(grain_of(quarter_pane(1, 1.0f)), 0.0f);
-  EXPECT_EQ(grain_of(quarter_pane(400, 1.0f)), 0.0f);
+// A pane shows the same at every pixel of four samples, also where its triangles are smaller than
+// pixels, and where it is seen aslant.
+TEST(Coverage, PanesHaveNoGrainInFourSamples) {
+  for (const float alpha : {0.1f, 0.25f, 0.6f}) {
+    EXPECT_EQ(grain_of(pane(1, 0.0f, alpha), alpha), 0.0f);
+    EXPECT_EQ(grain_of(pane(400, 0.0f, alpha), alpha), 0.0f);
+    EXPECT_EQ(grain_of(pane(1, 1.0f, alpha), alpha), 0.0f);
+    EXPECT_EQ(grain_of(pane(400, 1.0f, alpha), alpha), 0.0f);
+  }
 }
 
 /// A square of 2 m at z, which emits `emission` and covers `alpha` of what is behind it.

@@ -122,6 +122,19 @@ TEST(SolidSides, AreThoseOfTheWindingWhereNothingIsSeen) {
   EXPECT_EQ(sides.words[sides.first_word[2]], wound.words[wound.first_word[2]]);
 }
 
+TEST(MiswoundMeshes, AreTheSingleSidedOnesThatFaceSolidMatter) {
+  Scene scene = thick_walled_room();
+  EXPECT_TRUE(miswound_meshes(scene, sides_in(scene)).empty());
+  reverse(scene.meshes[1]);
+  const std::vector<MiswoundMesh> found = miswound_meshes(scene, sides_in(scene));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].mesh, 1);
+  EXPECT_EQ(found[0].triangles, scene.meshes[1].triangles.size());
+  // Nothing culls the triangles of two-sided meshes, however they are wound
+  for (Material& material : scene.materials) material.double_sided = true;
+  EXPECT_TRUE(miswound_meshes(scene, sides_in(scene)).empty());
+}
+
 TEST(SolidSides, FitOneSceneOnly) {
   Scene scene = thick_walled_room();
   const SolidSides sides = no_solid_sides(scene);

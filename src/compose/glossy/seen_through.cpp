@@ -134,7 +134,8 @@ void keep_through(const BandSeenThrough& band, SeenThrough& seen) {
           seen.coat_distances[pixel] = band.transmitted.coat_distances[i];
         }
       }
-      seen.albedo[pixel] = (band.fog.empty() ? 1.0f : band.fog[i].w) * tint;
+      const float passed = band.fog.empty() ? 1.0f : band.fog[i].w;
+      seen.albedo[pixel] = gbuffer.hits[i].sample_weight * passed * tint;
       const SeenLobe lobe =
           seen_lobe(surface.transmission, surface.normal_ws, gbuffer.to_viewer_ws[i]);
       seen.away_normals_ws[pixel] = -surface.normal_ws;

@@ -35,10 +35,10 @@ void main() {
     layers.glossy += glossy;
     layers.all += glossy;
   }
-  if (args.gathered != 0u && args.pixels.at[0].receives.at[i] != 0u) {
+  if (args.gathered != 0u && args.pixels.at[0].received_weight.at[i] != 0.0f) {
     vec3 irradiance = args.share * args.pixels.at[0].filtered_gathered.at[i];
     vec3 indirect = args.pixels.at[0].indirect_albedo.at[i] * irradiance;
-    layers.irradiance += irradiance;
+    layers.irradiance += args.pixels.at[0].received_weight.at[i] * irradiance;
     layers.indirect += indirect;
     layers.all += indirect;
   }

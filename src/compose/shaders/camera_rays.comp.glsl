@@ -20,6 +20,6 @@ void main() {
   uint number = sample_number(args.index, args.samples, args.jitter);
   args.rays.at[i] =
       RayRecord(ray.origin_ws, 0.0f, ray.direction_ws, uintBitsToFloat(kMissedDistanceBits),
-                sample_mask(pixel, number, args.seed));
+                sample_mask(pixel, number, args.samples, args.seed));
   args.cones.at[i] = camera_cone(args.camera, ray.direction_ws, args.samples, args.jitter);
 }

@@ -19,11 +19,12 @@ void main() {
   PixelLayers layers = args.layers.at[pixel];
   bool has_fog = (args.has & kHasFog) != 0u;
   vec4 fog = has_fog ? args.fog.at[i] : vec4(0.0f, 0.0f, 0.0f, 1.0f);
-  float seen = args.share * fog.w;
-  layers.fog += args.share * vec3(fog);
+  float share = args.share * surface.sample_weight;
+  float seen = share * fog.w;
+  layers.fog += share * vec3(fog);
   layers.emission += seen * surface.emission;
   if ((surface.flags & kSurfaceMissed) != 0u) {
-    layers.all += seen * surface.emission + args.share * vec3(fog);
+    layers.all += seen * surface.emission + share * vec3(fog);
     args.layers.at[pixel] = layers;
     return;
   }
@@ -39,7 +40,7 @@ void main() {
       vec3 irradiance =
           indirect_share(surface.gi_share, args.has & kIsLookedUp) * args.irradiance.at[i];
       indirect = reflected_indirect(surface.reflectance, n_dot_v, irradiance);
-      layers.irradiance += args.share * irradiance;
+      layers.irradiance += share * irradiance;
     }
     vec4 coats = (args.has & kHasCoats) != 0u ? args.coats.at[i] : vec4(0.0f);
     if ((args.has & kCoatsAreFiltered) != 0u) coats = vec4(vec3(0.0f), coats.w);
@@ -56,11 +57,11 @@ void main() {
   layers.indirect += seen * indirect;
   layers.glossy += seen * glossy;
   layers.transmission += seen * transmitted;
-  layers.all += seen * (diffuse + indirect + glossy + transmitted + surface.emission) +
-                args.share * vec3(fog);
-  layers.albedo += args.share * surface.reflectance.diffuse;
-  layers.normal += args.share * point.normal_ws;
-  layers.position += args.share * point.position_ws;
-  layers.depth -= args.share * dot(point.position_ws - args.camera_ws, args.camera_back);
+  layers.all +=
+      seen * (diffuse + indirect + glossy + transmitted + surface.emission) + share * vec3(fog);
+  layers.albedo += share * surface.reflectance.diffuse;
+  layers.normal += share * point.normal_ws;
+  layers.position += share * point.position_ws;
+  layers.depth -= share * dot(point.position_ws - args.camera_ws, args.camera_back);
   args.layers.at[pixel] = layers;
 }

@@ -4,9 +4,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "compose/filter_records.h"
 #include "compose/pixel_math.h"
-#include "shared/variance.h"
 #include "raytracing/shaders/unoccluded_light.glsl"
 #include "shared/demodulate.h"
+#include "shared/variance.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
@@ -14,7 +14,7 @@ layout(push_constant, scalar) uniform Push {
 };
 
 /// Stores the light that a pixel's coat reflects from rays. Returns whether there is any.
-bool keep_coat(uint i, uint pixel, LitPointRecord point, PixelSurfaceRecord surface, float passed) {
+bool keep_coat(uint i, uint pixel, LitPointRecord point, PixelSurfaceRecord surface, float weight) {
   vec4 by_rays = (args.has & kHasCoats) != 0u ? args.coats.at[i] : vec4(0.0f);
   args.pixels.at[0].coats.at[pixel] = vec3(0.0f);
   args.pixels.at[0].coat_lobes.at[pixel].sharpness = 0.0f;
@@ -22,7 +22,7 @@ bool keep_coat(uint i, uint pixel, LitPointRecord point, PixelSurfaceRecord surf
   float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
   vec3 albedo = filtered_coat_albedo(surface.reflectance, n_dot_v, by_rays.w);
   args.pixels.at[0].coats.at[pixel] = vec3(by_rays) / albedo;
-  args.pixels.at[0].coat_albedo.at[pixel] = passed * albedo;
+  args.pixels.at[0].coat_albedo.at[pixel] = weight * albedo;
   args.pixels.at[0].coat_lobes.at[pixel] =
       lobe_guide(point.normal_ws, surface.to_viewer_ws, surface.reflectance.alpha,
                  args.coat_inverse_distances.at[i]);
@@ -31,7 +31,7 @@ bool keep_coat(uint i, uint pixel, LitPointRecord point, PixelSurfaceRecord surf
 
 /// Stores the specular light of emitters.
 void keep_highlight(uint i, uint pixel, LitPointRecord point, PixelSurfaceRecord surface,
-                    bool coat_has_rays, float passed) {
+                    bool coat_has_rays, float weight) {
   args.pixels.at[0].highlights.at[pixel] = vec3(0.0f);
   args.pixels.at[0].highlight_albedo.at[pixel] = vec3(0.0f);
   args.pixels.at[0].highlight_lobes.at[pixel].sharpness = 0.0f;
@@ -52,7 +52,7 @@ void keep_highlight(uint i, uint pixel, LitPointRecord point, PixelSurfaceRecord
     }
   }
   args.pixels.at[0].highlights.at[pixel] = args.emitter_specular.at[i] / albedo;
-  args.pixels.at[0].highlight_albedo.at[pixel] = passed * albedo;
+  args.pixels.at[0].highlight_albedo.at[pixel] = weight * albedo;
 }
 
 void main() {
@@ -68,34 +68,34 @@ void main() {
   args.pixels.at[0].geometric_normals_ws.at[pixel] = point.geometric_normal_ws;
   args.pixels.at[0].depths.at[pixel] = seen ? depth : 0.0f;
   float passed = (args.has & kHasFog) != 0u ? args.fog.at[i].w : 1.0f;
-  bool has_rays = (args.has & kCoatsAreFiltered) != 0u &&
-                  keep_coat(i, pixel, point, surface, passed);
+  float weight = surface.sample_weight * passed;
+  bool has_rays =
+      (args.has & kCoatsAreFiltered) != 0u && keep_coat(i, pixel, point, surface, weight);
   if ((args.has & kClearcoatsAreFiltered) != 0u) {
-    args.pixels.at[0].clearcoat_albedo.at[pixel] *= passed;
+    args.pixels.at[0].clearcoat_albedo.at[pixel] *= weight;
   }
   if (args.draws > 0u) {
-    keep_highlight(i, pixel, point, surface, has_rays, passed);
+    keep_highlight(i, pixel, point, surface, has_rays, weight);
     FilteredEmitter emitter = FilteredEmitter(vec3(0.0f), vec3(0.0f), 0.0f, 0.0f);
     float variance = 0.0f;
     if (seen) {
-      emitter = filtered_emitter(
-          surface.reflectance, args.emitters.at[i],
-          unoccluded_light(args.scene, point.position_ws, point.normal_ws));
-      variance = filtered_variance(
-          emitter, variance_of_sum(emitter.level * luminance(emitter.light),
-                                   args.emitter_squares.at[i], args.draws));
+      emitter = filtered_emitter(surface.reflectance, args.emitters.at[i],
+                                 unoccluded_light(args.scene, point.position_ws, point.normal_ws));
+      variance =
+          filtered_variance(emitter, variance_of_sum(emitter.level * luminance(emitter.light),
+                                                     args.emitter_squares.at[i], args.draws));
     }
     args.pixels.at[0].emitter_levels.at[pixel] = emitter.level;
-    args.pixels.at[0].emitter_albedo.at[pixel] = passed * emitter.albedo;
+    args.pixels.at[0].emitter_albedo.at[pixel] = weight * emitter.albedo;
     args.pixels.at[0].emitters.at[pixel] = emitter.light;
     if (args.draws > 1u) args.pixels.at[0].emitter_variance.at[pixel] = variance;
   }
   if ((args.has & kIsFiltered) != 0u) {
     float share = seen ? surface.gi_share : 0.0f;
     args.pixels.at[0].looked_up.at[pixel] = seen ? share * args.irradiance.at[i] : vec3(0.0f);
-    args.pixels.at[0].receives.at[pixel] = share > 0.0f ? 1u : 0u;
+    args.pixels.at[0].received_weight.at[pixel] = share > 0.0f ? surface.sample_weight : 0.0f;
     float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
     args.pixels.at[0].indirect_albedo.at[pixel] =
-        seen ? passed * reflected_indirect(surface.reflectance, n_dot_v, vec3(1.0f)) : vec3(0.0f);
+        seen ? weight * reflected_indirect(surface.reflectance, n_dot_v, vec3(1.0f)) : vec3(0.0f);
   }
 }

@@ -30,7 +30,8 @@ void main() {
       args.seen.at[0].coat_distances.at[pixel] = args.coat_distances.at[i];
     }
   }
-  args.seen.at[0].albedo.at[pixel] = (args.has_fog != 0u ? args.fog.at[i].w : 1.0f) * tint;
+  float passed = args.has_fog != 0u ? args.fog.at[i].w : 1.0f;
+  args.seen.at[0].albedo.at[pixel] = surface.sample_weight * passed * tint;
   vec3 normal_ws = args.points.at[i].normal_ws;
   SeenLobe lobe = seen_lobe(surface.transmission, normal_ws, surface.to_viewer_ws);
   if (lobe.alpha <= 0.0f) return;

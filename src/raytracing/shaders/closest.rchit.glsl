@@ -15,5 +15,5 @@ void main() {
   // What was tested last may be behind this hit
   if (instance != found.instance || triangle != found.triangle) found.share = 1.0f;
   found.hit = HitRecord(gl_HitTEXT, instance, triangle, barycentrics,
-                        gl_HitKindEXT == gl_HitKindFrontFacingTriangleEXT ? 1u : 0u);
+                        gl_HitKindEXT == gl_HitKindFrontFacingTriangleEXT ? 1u : 0u, 1.0f);
 }

@@ -21,5 +21,6 @@ void main() {
     ray.t_min = restart_distance(met);
     ray.mask = met.ray_mask;
   }
+  found.hit.sample_weight = sample_weight(met);
   args.hits.at[i] = found.hit;
 }

@@ -12,8 +12,9 @@ layout(location = 0) rayPayloadEXT ClosestPayload found;
 /// The hit is left in `found`. The ray is not traced, and misses, where the mask is 0. `passed`:
 /// see stops_ray().
 void find_closest(uvec2 structure, RayRecord ray, uint flags, uint mask, float passed) {
-  found = ClosestPayload(HitRecord(uintBitsToFloat(kMissedDistanceBits), 0u, 0u, vec2(0.0f), 0u),
-                         ray.mask, passed, 0u, 0u, 1.0f);
+  found =
+      ClosestPayload(HitRecord(uintBitsToFloat(kMissedDistanceBits), 0u, 0u, vec2(0.0f), 0u, 1.0f),
+                     ray.mask, passed, 0u, 0u, 1.0f);
   if (mask != 0u && ray.t_min <= ray.t_max) {
     traceRayEXT(accelerationStructureEXT(structure), flags, mask, 0, 0, 0, ray.origin_ws, ray.t_min,
                 ray.direction_ws, min(ray.t_max, kFarthestOfDevices), 0);

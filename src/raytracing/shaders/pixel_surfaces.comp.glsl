@@ -20,7 +20,7 @@ void main() {
                                         kNoDirectLight, 0u, vec3(0.0f), 0.0f);
   PixelSurfaceRecord pixel = PixelSurfaceRecord(
       lambert_reflectance(vec3(0.0f)), vec3(0.0f), -ray.direction_ws, no_transmission(),
-      RayCone(0.0f, 0.0f), kSurfaceMissed, 0.0f, CoatShares(0.0f, 0.0f));
+      RayCone(0.0f, 0.0f), kSurfaceMissed, 0.0f, CoatShares(0.0f, 0.0f), hit.sample_weight);
   if (missed(hit)) {
     pixel.cone = args.cones.at[i];
     pixel.emission = sky_radiance_in_cone(args.scene.at[0].environment, ray.direction_ws,

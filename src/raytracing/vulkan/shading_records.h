@@ -37,6 +37,7 @@ struct PixelSurfaceRecord {
   uint flags;
   float gi_share;  ///< See Surface.
   CoatShares coat_shares;
+  float sample_weight;  ///< See Hit.
 };
 
 LAMBENT_DEVICE_ARRAY(LitPointArray, LitPointRecord, 4)

@@ -215,8 +215,8 @@ void VulkanRayTracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hit
     for (std::size_t i = begin; i < end; ++i) {
       HitRecord record;
       std::memcpy(&record, results + (i - begin) * sizeof(record), sizeof(record));
-      hits[i] = {record.distance, record.instance, record.triangle, record.barycentrics,
-                 record.front_face != 0};
+      hits[i] = {record.distance,     record.instance,        record.triangle,
+                 record.barycentrics, record.front_face != 0, record.sample_weight};
     }
   });
 }
