@@ -24,9 +24,11 @@ constexpr float kMinEmissionRatio = 0.1f;
 // Lamps, such as a photographer's soft boxes, differ from signs in that they light nearly all of a
 // view, at least the first share of it, and are brighter than what glTF files emit without
 // KHR_materials_emissive_strength [W/(m^2 sr)]. Beside them, the view may be darker: a hundredth is
-// still visible where they are white. Courts and streets are theirs, too, where they light nearly
-// all: others have lost their sun.
+// still visible where they are white.
 constexpr float kMinLitByLamps = 0.9f, kMaxSignRadiance = 1.0f, kMinLampRatio = 0.01f;
+// A court or a street under open sky is lit by its own emitters only if they light this share of
+// the view; otherwise it is shown by day.
+constexpr float kMinLitByNight = 0.9f;
 // A camera is indoors where at least this share of the directions around it end at a surface.
 constexpr float kMinEnclosure = 0.75f;
 // A room is closed where at most this share of the sky is visible from what the camera sees.
@@ -193,11 +195,12 @@ FirstLight choose_first_light(const World& world, const Camera& camera) {
   const SeenView view = sample_view(world, camera);
   const ViewLight light = measure_view_light(world, view);
   const bool indoors = enclosure(world, camera) >= kMinEnclosure;
-  const bool nearly_all_lit = light.lit_by_emission >= kMinLitByLamps;
-  const bool lit_by_lamps = nearly_all_lit && light.emitter_radiance > kMaxSignRadiance &&
+  const bool lit_by_lamps = light.lit_by_emission >= kMinLitByLamps &&
+                            light.emitter_radiance > kMaxSignRadiance &&
                             light.emission_ratio >= kMinLampRatio;
   if (light.lit_by_emission >= kMinLitShare) {
-    const bool lit = indoors ? nearly_all_lit || !has_court(world, false)
+    const bool under_sky = light.sky_visibility > kMaxSkyIndoors && has_court(world, false);
+    const bool lit = indoors ? light.lit_by_emission >= kMinLitByNight || !under_sky
                              : lit_by_lamps || light.emission_ratio >= kMinEmissionRatio;
     if (lit) return FirstLight::scene;
   }

@@ -38,7 +38,7 @@ Expected<void> check(const FirstViewSettings& settings) {
 bool lacks_light(const World& world, const Camera& camera) {
   if (emissive_of(world).empty()) return false;
   const FirstLight light = choose_first_light(world, camera);
-  return light == FirstLight::sun || light == FirstLight::studio || light == FirstLight::lamps;
+  return light != FirstLight::scene && light != FirstLight::sky;
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ Expected<FirstView> first_view(const World& world, const FirstViewSettings& sett
     if (inside) return FirstView{*inside, true};
   }
   const Camera outside = outside_view(world, subject, object_fov, settings.aspect);
-  // Windows and signs light a town at night as its streets show it
+  // Windows and signs of a town at night light its streets, but not what is seen from outside
   if (lacks_light(world, outside)) {
     const auto street = street_view(world, survey, subject.bounds, room_fov, settings.aspect);
     if (street && choose_first_light(world, *street) == FirstLight::scene) {

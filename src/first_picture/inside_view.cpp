@@ -22,6 +22,8 @@ namespace {
 // unit is not the metre or which are models of rooms, at a share of the room's height. Streets and
 // courts may be deeper than rooms are high.
 constexpr float kMinRoomHeight = 1.9f, kMaxRoomHeight = 20.0f, kMaxStreetDepth = 100.0f;
+// What has streets covers at least this much ground each way [m]: less is a thing, such as a rack.
+constexpr float kMinStreetGround = 10.0f;
 constexpr float kEyeHeight = 1.6f;
 constexpr float kEyeShareOfHeight = 0.45f;
 // Highest eye in a room of human scale, as a share of its height.
@@ -61,9 +63,11 @@ float height_of(const OpenPlace& place) {
   return place.ceiling - place.floor;
 }
 
-/// Whether a height is that of a room, or of the houses along a street, in metres.
-bool is_room_height(float height, bool open_above) {
-  return height >= kMinRoomHeight && height <= (open_above ? kMaxStreetDepth : kMaxRoomHeight);
+/// Whether a place is as high as a room or, below the open sky, as houses along a street, in
+/// metres.
+bool has_human_scale(const OpenPlace& place) {
+  const float most = place.open_above ? kMaxStreetDepth : kMaxRoomHeight;
+  return height_of(place) >= kMinRoomHeight && height_of(place) <= most;
 }
 
 /// The first places, at most `most`, where an observer could stand.
@@ -74,7 +78,8 @@ std::vector<OpenPlace> standing_places(std::span<const OpenPlace> sheltered, std
   const auto median = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
   std::nth_element(heights.begin(), median, heights.end());
   float least = kStandingShare * *median;
-  if (is_room_height(*median, false)) least = std::min(least, kMinRoomHeight);
+  if (*median >= kMinRoomHeight && *median <= kMaxRoomHeight)
+    least = std::min(least, kMinRoomHeight);
   std::vector<OpenPlace> standing;
   for (const OpenPlace& place : sheltered) {
     if (standing.size() == most) break;
@@ -86,7 +91,7 @@ std::vector<OpenPlace> standing_places(std::span<const OpenPlace> sheltered, std
 glm::vec3 eye_at(const OpenPlace& place) {
   const float height = height_of(place);
   float eye = kEyeShareOfHeight * height;
-  if (is_room_height(height, place.open_above)) {
+  if (has_human_scale(place)) {
     eye = std::min(kEyeHeight, kMaxEyeShareOfHeight * height);
   }
   return {place.position_ws.x, place.floor + eye, place.position_ws.z};
@@ -222,11 +227,12 @@ std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
 
 std::optional<Camera> street_view(const World& world, const SpaceSurvey& survey,
                                   const Bounds& bounds, float vertical_fov, float aspect) {
+  const glm::vec3 size = bounds.max - bounds.min;
+  if (std::min(size.x, size.z) < kMinStreetGround) return std::nullopt;
   SpaceSurvey streets;
-  std::ranges::copy_if(survey.sheltered, std::back_inserter(streets.sheltered),
-                       [](const OpenPlace& place) {
-                         return place.open_above && is_room_height(height_of(place), true);
-                       });
+  std::ranges::copy_if(
+      survey.sheltered, std::back_inserter(streets.sheltered),
+      [](const OpenPlace& place) { return place.open_above && has_human_scale(place); });
   return inside_view(world, streets, bounds, vertical_fov, aspect);
 }
 

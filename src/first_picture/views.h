@@ -18,8 +18,8 @@ Camera outside_view(const World& world, const Subject& subject, float vertical_f
 std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
                                   const Bounds& bounds, float vertical_fov, float aspect);
 
-/// The same from a street, court or other place below the open sky at a human scale; none where
-/// there is none.
+/// The best view at eye height from a street, a court or another sheltered place below the open
+/// sky; none where the scene has no such place of a human scale.
 std::optional<Camera> street_view(const World& world, const SpaceSurvey& survey,
                                   const Bounds& bounds, float vertical_fov, float aspect);
 

@@ -45,7 +45,7 @@ struct Hit {
   std::uint32_t triangle = 0;    ///< Index into the mesh's triangles.
   glm::vec2 barycentrics{0.0f};  ///< Weights of the triangle's second and third vertex.
   bool front_face = true;  ///< The ray hit the side from which the vertices run counter-clockwise.
-  /// Weight among the samples of a pixel, also where nothing was hit; see sample_weight(). 1 for
+  /// Weight among the samples of a pixel, also where nothing was hit; see weight_of_sample(). 1 for
   /// other rays.
   float sample_weight = 1.0f;
 

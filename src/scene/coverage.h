@@ -35,7 +35,8 @@ LAMBENT_FN float uniform_of_hit(vec2 barycentrics, float distance, uint triangle
 //   bits 16 to 31  a hash of the pixel
 const uint kKindMaskBits = 0xFu, kSampleMaskKind = 1u;
 const uint kSampleMaskShift = 4u, kSampleMaskBits = 0xFFu;
-const uint kSamplesMaskShift = 12u, kSamplesMaskBits = 0xFu, kMaxLog2Samples = 8u;
+const uint kSampleCountMaskShift = 12u, kSampleCountMaskBits = 0xFu,
+           kMaxLog2Samples = 8u;  // 256, as the sample
 const uint kPixelMaskShift = 16u;
 
 /// A mask that meets all instances and carries no sample: kRayMeetsAll of raytracing/ray_records.h,
@@ -47,7 +48,7 @@ LAMBENT_FN uint sample_mask(uint pixel, uint sample_index, uint samples, uint se
   uint number = hash_pcg3d(uvec3(pixel, sample_index / (kSampleMaskBits + 1u), seed)).x;
   uint log2_samples = min(uint(findMSB(samples)), kMaxLog2Samples);
   return kSampleMaskKind | ((sample_index & kSampleMaskBits) << kSampleMaskShift) |
-         (log2_samples << kSamplesMaskShift) | ((number >> kPixelMaskShift) << kPixelMaskShift);
+         (log2_samples << kSampleCountMaskShift) | ((number >> kPixelMaskShift) << kPixelMaskShift);
 }
 
 LAMBENT_FN bool carries_sample(uint ray_mask) {
@@ -122,42 +123,47 @@ const float kNothingPassed = -1.0f;
 /// The blended surfaces that a pixel's sample has met, front to back. The sample ends at the first
 /// surface where the share of the samples that end up to it exceeds its number. The numbers of a
 /// pixel's samples lie in equal parts, and shares are whole numbers of samples where that is
-/// possible, so that neighbouring pixels show a surface in as many samples. A sample's weight makes
-/// up for what such a share differs from that of the pixel.
+/// possible, so that neighbouring pixels show a surface in as many samples. A sample's weight is
+/// the surface's share of the pixel over its share of the samples.
 struct OrderedCoverage {
-  uint ray_mask;  ///< Of the ray that goes on.
-  float number;   ///< The sample's, 0 to 1.
-  float samples;  ///< Number of the pixel's samples, a power of 2.
-  float open;     ///< Share of the pixel that the surfaces so far leave uncovered.
-  float left;     ///< Share of the samples that go on.
-  float passed;   ///< Distance up to which blended surfaces have been passed [m].
-  uint surfaces;  ///< Number of surfaces that have been passed.
+  uint ray_mask;    ///< Of the ray that goes on.
+  float number;     ///< The sample's, 0 to 1.
+  float samples;    ///< Number of the pixel's samples, a power of 2.
+  float open;       ///< Share of the pixel that the surfaces so far leave uncovered.
+  float remaining;  ///< Share of the samples that go on.
+  float passed;     ///< Distance up to which blended surfaces have been passed [m].
+  uint surfaces;    ///< Number of surfaces that have been passed.
 };
 
 LAMBENT_FN OrderedCoverage start_coverage(uint ray_mask) {
   OrderedCoverage met;
   met.ray_mask = ray_mask;
   met.number = uniform_of_sample(ray_mask);
-  met.samples = float(1u << ((ray_mask >> kSamplesMaskShift) & kSamplesMaskBits));
+  met.samples = float(1u << ((ray_mask >> kSampleCountMaskShift) & kSampleCountMaskBits));
   met.open = 1.0f;
-  met.left = 1.0f;
+  met.remaining = 1.0f;
   met.passed = kNothingPassed;
   met.surfaces = 0u;
   return met;
 }
 
-/// Where at least so many samples are left, one of them ends at a surface however little it covers,
-/// and one goes on however little it leaves. Of fewer, that would take too many from the others.
-const float kSamplesForThinSurfaces = 4.0f;
+// A surface receives at least one sample, and leaves one to what is behind it, where it covers and
+// leaves uncovered at least kLeastDealtCoverage, so that no pixel shows it twice as often as the
+// next; less is hardly visible. At least kLeastDealtSamples, and half of all, must remain: stacks
+// of thin surfaces would leave too few samples to what is behind them.
+const float kLeastDealtCoverage = 1.0f / 64.0f, kLeastDealtSamples = 4.0f;
 
 /// The share of a pixel's samples that end at a surface of coverage `alpha`: a whole number of
 /// them, unless the surface or what is behind it would receive none.
 LAMBENT_FN float ending_share(OrderedCoverage met, float alpha) {
-  float samples = met.left * met.samples;
+  float samples = met.remaining * met.samples;
   float ending = floor(alpha * samples + 0.5f);
-  if (samples >= kSamplesForThinSurfaces) ending = clamp(ending, 1.0f, samples - 1.0f);
-  bool whole = alpha > 0.0f && alpha < 1.0f && ending >= 1.0f && ending <= samples - 1.0f;
-  return whole ? ending / met.samples : met.left * alpha;
+  if (min(alpha, 1.0f - alpha) >= kLeastDealtCoverage &&
+      samples >= max(kLeastDealtSamples, 0.5f * met.samples)) {
+    ending = clamp(ending, 1.0f, samples - 1.0f);
+  }
+  bool whole = alpha < 1.0f && ending >= 1.0f && ending <= samples - 1.0f;
+  return whole ? ending / met.samples : met.remaining * alpha;
 }
 
 /// Whether a sample ends at the surface, of coverage `alpha`, that its ray met at `distance`.
@@ -165,12 +171,12 @@ LAMBENT_FN float ending_share(OrderedCoverage met, float alpha) {
 LAMBENT_FN bool ends_sample(LAMBENT_INOUT(OrderedCoverage) met, float alpha, float distance) {
   if (!carries_sample(met.ray_mask)) return true;
   float ending = ending_share(met, alpha);
-  if (1.0f - met.left + ending > met.number) {
-    if (ending > 0.0f) met.open *= alpha * met.left / ending;
+  if (alpha >= 1.0f || 1.0f - met.remaining + ending > met.number) {
+    if (ending > 0.0f) met.open *= alpha * met.remaining / ending;
     return true;
   }
   met.open *= 1.0f - alpha;
-  met.left -= ending;
+  met.remaining -= ending;
   met.passed = distance * (1.0f + kSameDistance);
   met.surfaces += 1u;
   if (met.surfaces == kMaxOrderedSurfaces) met.ray_mask = kChanceMask;
@@ -178,8 +184,8 @@ LAMBENT_FN bool ends_sample(LAMBENT_INOUT(OrderedCoverage) met, float alpha, flo
 }
 
 /// The weight of a sample that has ended, or whose ray left the scene, in the mean of the pixel's.
-LAMBENT_FN float sample_weight(OrderedCoverage met) {
-  return met.left > 0.0f ? met.open / met.left : 1.0f;
+LAMBENT_FN float weight_of_sample(OrderedCoverage met) {
+  return met.remaining > 0.0f ? met.open / met.remaining : 1.0f;
 }
 
 /// Where a ray that has passed a surface goes on [m]: just before it, for an opaque surface may lie

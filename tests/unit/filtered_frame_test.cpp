@@ -9,6 +9,7 @@
 #include "compose/pixel_math.h"
 #include "core/image/metrics.h"
 #include "lambent/renderer.h"
+#include "support/box_behind_a_pane.h"
 #include "support/field_scenes.h"
 
 namespace lambent::filtered_frame_test {
@@ -47,6 +48,26 @@ double error_of(const LayeredImage& image, const LayeredImage& truth, const char
                         {.block = block, .perceptual = false})
       .value()
       .relative_rmse;
+}
+
+// Few samples meet the pane more often than it covers; what is filtered has their weights, too.
+TEST(FilteredFrame, ShowsBlendedPanesAsMuchAsTheyCover) {
+  const LitStage box(test::box_behind_a_pane());
+  FrameSettings few = of_quality(Quality::high);
+  few.width = few.height = 48;
+  FrameSettings many = few;
+  many.samples = 64;
+  many.gather_rays = 4;
+  for (const bool denoise : {false, true}) {
+    few.denoise = many.denoise = denoise;
+    const LayeredImage image = box.picture(few), truth = box.picture(many);
+    for (const char* layer : {"direct", "indirect", "glossy", "irradiance", "albedo"}) {
+      const Metrics found =
+          compare_images(*image.find(layer), *truth.find(layer), {.block = 8, .perceptual = false})
+              .value();
+      EXPECT_NEAR(found.mean_ratio, 1.0, 0.02) << layer << (denoise ? ", filtered" : "");
+    }
+  }
 }
 
 TEST(FilteredFrame, ComesCloseToOneOfManyMoreRays) {

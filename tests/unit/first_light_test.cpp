@@ -108,6 +108,25 @@ TEST(FirstLight, IsLampsInClosedRooms) {
   EXPECT_EQ(chosen(unlit("two-rooms")), FirstLight::lamps);
 }
 
+TEST(FirstLight, IsTheSunsInACourtThatItsLampsLightInPart) {
+  // A court of 12 m, open above, with a lamp that one wall hides from half of it
+  const auto court = [](bool divided) {
+    std::vector<Mesh> parts = {
+        box_mesh({-6, -0.2f, -6}, {6, 0, 6}), box_mesh({-6.2f, 0, -6}, {-6, 8, 6}),
+        box_mesh({6, 0, -6}, {6.2f, 8, 6}), box_mesh({-6, 0, -6.2f}, {6, 8, -6}),
+        box_mesh({-6, 0, 6}, {6, 8, 6.2f})};
+    if (divided) parts.push_back(box_mesh({-6, 0, -1}, {2, 8, -0.8f}));
+    Scene scene = scene_of(std::move(parts));
+    scene.materials.push_back(test::lambert(glm::vec3(0.0f), glm::vec3(5.0f)));
+    test::add(scene, test::quad({-5.9f, 3, 2}, {0, 2, 0}, {0, 0, 2}, 1));
+    return scene;
+  };
+  const Camera camera = look_at({5, 1.6f, 0.5f}, {-6, 1.6f, -4}, 1.0f);
+  const Scene lit = court(false), partly = court(true);
+  EXPECT_EQ(choose_first_light(World(lit), camera), FirstLight::scene);
+  EXPECT_EQ(choose_first_light(World(partly), camera), FirstLight::sun);
+}
+
 TEST(FirstLight, IsWhatLampsEmitWhereTheyLightTheRoom) {
   EXPECT_EQ(chosen(unlit("cornell")), FirstLight::scene);
 }

@@ -232,7 +232,7 @@ Scene street(float radiance) {
   return scene;
 }
 
-// From outside, the backs of the houses would need a sun.
+// Seen from outside, nothing of it is lit.
 TEST(FirstView, StandsInAStreetThatItsWindowsLight) {
   const Scene night = street(8.0f), day = street(0.0f);
   const World world(night);
@@ -242,6 +242,11 @@ TEST(FirstView, StandsInAStreetThatItsWindowsLight) {
   EXPECT_LT(std::abs(eye_of(view.camera).x), 6.0f);
   EXPECT_EQ(choose_first_light(world, view.camera), FirstLight::scene);
   EXPECT_FALSE(first_view(World(day)).value().inside);
+  Scene model = night;
+  for (Mesh& mesh : model.meshes) {
+    for (glm::vec3& position : mesh.positions) position *= 0.2f;
+  }
+  EXPECT_FALSE(first_view(World(model)).value().inside) << "a model of a street is seen as a thing";
 }
 
 // A window is not what to look at from close by, however far one sees through it.

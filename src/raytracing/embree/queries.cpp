@@ -65,7 +65,7 @@ Hit EmbreeRayTracer::end_of_sample(const Ray& ray, Hit hit) const {
     rest.mask = met.ray_mask;
     hit = closest_beyond(rest, met.passed);
   }
-  hit.sample_weight = sample_weight(met);
+  hit.sample_weight = weight_of_sample(met);
   return hit;
 }
 

@@ -21,6 +21,6 @@ void main() {
     ray.t_min = restart_distance(met);
     ray.mask = met.ray_mask;
   }
-  found.hit.sample_weight = sample_weight(met);
+  found.hit.sample_weight = weight_of_sample(met);
   args.hits.at[i] = found.hit;
 }
