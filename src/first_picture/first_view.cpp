@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <glm/gtc/constants.hpp>
 
 #include "first_picture/views.h"
 #include "lambent/first_picture.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/world_access.h"
+#include "scene/light_sampling.h"
 
 namespace lambent {
 namespace {
