@@ -68,12 +68,6 @@ void filter_coats(DenoiseView view, FilteredPixels& pixels) {
   assert(done);
 }
 
-/// Weight of a pixel's sample times the transmittance of the fog before it.
-float shown_weight(const BandToFilter& light, std::size_t pixel) {
-  const float passed = light.fog.empty() ? 1.0f : light.fog[pixel].w;
-  return light.gbuffer.hits[pixel].sample_weight * passed;
-}
-
 /// Pixels of a band that are stored from index `first` on.
 struct KeptBand {
   const BandToFilter& light;
@@ -96,7 +90,7 @@ void keep_coats(const KeptBand& band, const GBuffer& surfaces, const CoatLight& 
       const vec3 albedo = filtered_coat_albedo(
           surface.reflectance, dot(surface.normal_ws, surfaces.to_viewer_ws[i]), light.w);
       coats.light[pixel] = vec3(light) / albedo;
-      coats.albedo[pixel] = shown_weight(band.light, i) * albedo;
+      coats.albedo[pixel] = shown_weight(band.light.gbuffer, band.light.fog, i) * albedo;
       if (!coats.normals_ws.empty()) coats.normals_ws[pixel] = surface.normal_ws;
       coats.alphas[pixel] = surface.reflectance.alpha;
       coats.inverse_distances[pixel] = by_rays.inverse_distances[i];
@@ -166,7 +160,7 @@ void keep_highlights(const BandToFilter& light, std::size_t first, std::size_t c
             by_coat ? pixels.coats.inverse_distances[pixel]
                     : pixels.clearcoats.inverse_distances[pixel];
       }
-      const float weight = shown_weight(light, i);
+      const float weight = shown_weight(gbuffer, light.fog, i);
       pixels.highlights[pixel] = light.direct.emitter_specular[i] / albedo;
       pixels.highlight_albedo[pixel] = weight * albedo;
     }
@@ -263,7 +257,7 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
       pixels.normals_ws[pixel] = surface.normal_ws;
       pixels.geometric_normals_ws[pixel] = surface.geometric_normal_ws;
       pixels.depths[pixel] = seen ? view_depth(camera, surface.position_ws) : 0.0f;
-      const float weight = shown_weight(light, i);
+      const float weight = shown_weight(gbuffer, light.fog, i);
       if (emitters) {
         FilteredEmitter emitter{};
         if (seen) {

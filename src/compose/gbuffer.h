@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "lambent/renderer.h"
@@ -49,6 +50,13 @@ struct GBuffer {
 
   std::size_t size() const { return hit.size(); }
 };
+
+/// Weight of a pixel's sample times the transmittance of the fog before it; `fog` is that of the
+/// pixels, see fog_along(), or empty.
+inline float shown_weight(const GBuffer& gbuffer, std::span<const glm::vec4> fog,
+                          std::size_t pixel) {
+  return gbuffer.hits[pixel].sample_weight * (fog.empty() ? 1.0f : fog[pixel].w);
+}
 
 /// The point of the picture at which a pixel's sample is taken [pixels]. `jitter`: see
 /// subpixel_position().

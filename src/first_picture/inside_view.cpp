@@ -22,12 +22,14 @@ namespace {
 // unit is not the metre or which are models of rooms, at a share of the room's height. Streets and
 // courts may be deeper than rooms are high.
 constexpr float kMinRoomHeight = 1.9f, kMaxRoomHeight = 20.0f, kMaxStreetDepth = 100.0f;
-// What has streets covers at least this much ground each way [m]: less is a thing, such as a rack.
-constexpr float kMinStreetGround = 10.0f;
 constexpr float kEyeHeight = 1.6f;
 constexpr float kEyeShareOfHeight = 0.45f;
 // Highest eye in a room of human scale, as a share of its height.
 constexpr float kMaxEyeShareOfHeight = 0.6f;
+
+// Where there are streets, the scene covers at least this much ground each way [m]. A smaller one
+// is a thing, such as a rack of lamps.
+constexpr float kMinStreetGround = 10.0f;
 
 // An observer stands on the floor, not on a worktop, under a table or between shelves: where there
 // is at least this share of the median height of all places. In rooms whose heights look like
@@ -78,8 +80,8 @@ std::vector<OpenPlace> standing_places(std::span<const OpenPlace> sheltered, std
   const auto median = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
   std::nth_element(heights.begin(), median, heights.end());
   float least = kStandingShare * *median;
-  if (*median >= kMinRoomHeight && *median <= kMaxRoomHeight)
-    least = std::min(least, kMinRoomHeight);
+  const bool in_metres = *median >= kMinRoomHeight && *median <= kMaxRoomHeight;
+  if (in_metres) least = std::min(least, kMinRoomHeight);
   std::vector<OpenPlace> standing;
   for (const OpenPlace& place : sheltered) {
     if (standing.size() == most) break;

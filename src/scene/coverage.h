@@ -35,8 +35,8 @@ LAMBENT_FN float uniform_of_hit(vec2 barycentrics, float distance, uint triangle
 //   bits 16 to 31  a hash of the pixel
 const uint kKindMaskBits = 0xFu, kSampleMaskKind = 1u;
 const uint kSampleMaskShift = 4u, kSampleMaskBits = 0xFFu;
-const uint kSampleCountMaskShift = 12u, kSampleCountMaskBits = 0xFu,
-           kMaxLog2Samples = 8u;  // 256, as the sample
+const uint kSampleCountMaskShift = 12u, kSampleCountMaskBits = 0xFu;
+const uint kMaxLog2Samples = 8u;  // samples are numbered modulo 256
 const uint kPixelMaskShift = 16u;
 
 /// A mask that meets all instances and carries no sample: kRayMeetsAll of raytracing/ray_records.h,
@@ -129,8 +129,10 @@ struct OrderedCoverage {
   uint ray_mask;    ///< Of the ray that goes on.
   float number;     ///< The sample's, 0 to 1.
   float samples;    ///< Number of the pixel's samples, a power of 2.
-  float open;       ///< Share of the pixel that the surfaces so far leave uncovered.
-  float remaining;  ///< Share of the samples that go on.
+  float open;       ///< Share of the pixel that the surfaces so far leave uncovered or, once the
+                    ///< sample has ended, that its surface covers.
+  float remaining;  ///< Share of the samples that go on or, once the sample has ended, that end
+                    ///< where it does.
   float passed;     ///< Distance up to which blended surfaces have been passed [m].
   uint surfaces;    ///< Number of surfaces that have been passed.
 };
@@ -147,19 +149,20 @@ LAMBENT_FN OrderedCoverage start_coverage(uint ray_mask) {
   return met;
 }
 
-// A surface receives at least one sample, and leaves one to what is behind it, where it covers and
-// leaves uncovered at least kLeastDealtCoverage, so that no pixel shows it twice as often as the
-// next; less is hardly visible. At least kLeastDealtSamples, and half of all, must remain: stacks
-// of thin surfaces would leave too few samples to what is behind them.
-const float kLeastDealtCoverage = 1.0f / 64.0f, kLeastDealtSamples = 4.0f;
+// A surface that covers at least kMinGuaranteedCoverage receives at least one of a pixel's samples,
+// and one that leaves as much uncovered leaves at least one to what is behind it. For less, chance
+// decides: its noise is faint, and a sample of four is dear. Chance also decides where fewer than
+// kMinSamplesToGuarantee samples, or less than half of all, remain: otherwise stacks of thin
+// surfaces would leave too few samples to what is behind them.
+const float kMinGuaranteedCoverage = 1.0f / 64.0f, kMinSamplesToGuarantee = 4.0f;
 
 /// The share of a pixel's samples that end at a surface of coverage `alpha`: a whole number of
 /// them, unless the surface or what is behind it would receive none.
 LAMBENT_FN float ending_share(OrderedCoverage met, float alpha) {
   float samples = met.remaining * met.samples;
   float ending = floor(alpha * samples + 0.5f);
-  if (min(alpha, 1.0f - alpha) >= kLeastDealtCoverage &&
-      samples >= max(kLeastDealtSamples, 0.5f * met.samples)) {
+  if (min(alpha, 1.0f - alpha) >= kMinGuaranteedCoverage &&
+      samples >= max(kMinSamplesToGuarantee, 0.5f * met.samples)) {
     ending = clamp(ending, 1.0f, samples - 1.0f);
   }
   bool whole = alpha < 1.0f && ending >= 1.0f && ending <= samples - 1.0f;
@@ -172,7 +175,8 @@ LAMBENT_FN bool ends_sample(LAMBENT_INOUT(OrderedCoverage) met, float alpha, flo
   if (!carries_sample(met.ray_mask)) return true;
   float ending = ending_share(met, alpha);
   if (alpha >= 1.0f || 1.0f - met.remaining + ending > met.number) {
-    if (ending > 0.0f) met.open *= alpha * met.remaining / ending;
+    met.open *= alpha;
+    met.remaining = ending;
     return true;
   }
   met.open *= 1.0f - alpha;

@@ -134,8 +134,7 @@ void keep_through(const BandSeenThrough& band, SeenThrough& seen) {
           seen.coat_distances[pixel] = band.transmitted.coat_distances[i];
         }
       }
-      const float passed = band.fog.empty() ? 1.0f : band.fog[i].w;
-      seen.albedo[pixel] = gbuffer.hits[i].sample_weight * passed * tint;
+      seen.albedo[pixel] = shown_weight(gbuffer, band.fog, i) * tint;
       const SeenLobe lobe =
           seen_lobe(surface.transmission, surface.normal_ws, gbuffer.to_viewer_ws[i]);
       seen.away_normals_ws[pixel] = -surface.normal_ws;
