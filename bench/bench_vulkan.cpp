@@ -76,7 +76,8 @@ struct ProbeBlend {
     find_surfel_lookups(store, {}, probes, traces);
     field.write_surfels(probes, traces);
     std::vector<HitRecord> records;
-    for (const Hit& hit : group.hits) records.push_back({hit.distance, 0, 0, {}, 1u});
+    for (const Hit& hit : group.hits)
+      records.push_back({hit.distance, 0, 0, {}, 1u, hit.sample_weight});
     hits = vulkan::upload(*device(), records, "hits");
     blend_weights =
         vulkan::upload(*device(), std::vector<float>(probes.size(), 0.1f), "blend_weights");
