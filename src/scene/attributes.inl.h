@@ -92,11 +92,12 @@ LAMBENT_FN vec4 texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view, Tr
   if (view.texture < 0) return vec4(1.0f);
   CornerUvs uvs = corner_uvs(mesh, view, p);
   vec2 uv = interpolate(uvs.a, uvs.b, uvs.c, p.weights);
-  if (!uvs.present || cone_share.of_triangle <= 0.0f) return sample_texture(scene, view, uv, 0.0f);
-  if (cone_share.blended != 0u) {
-    return sample_texture(scene, view, uv, blended_level(scene, view, uvs, cone_share));
+  bool cone = uvs.present && cone_share.of_triangle > 0.0f;
+  if (cone && cone_share.blended == 0u) {
+    return nearest_texel(scene, view, uv, mip_level(scene, view, uvs, cone_share));
   }
-  return nearest_texel(scene, view, uv, mip_level(scene, view, uvs, cone_share));
+  float level = cone ? blended_level(scene, view, uvs, cone_share) : 0.0f;
+  return sample_texture(scene, view, uv, level);
 }
 
 /// A texture of a mesh at a point, filtered with weights of full precision. Devices may filter with
@@ -105,12 +106,14 @@ LAMBENT_FN vec4 texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view, Tr
 LAMBENT_FN vec4 precise_texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view,
                                    TrianglePointRef p, ConeShare cone_share) {
   if (view.texture < 0) return vec4(1.0f);
-  bool cone = cone_share.of_triangle > 0.0f;
-  if (cone && cone_share.blended == 0u) return texture_at(scene, mesh, view, p, cone_share);
   CornerUvs uvs = corner_uvs(mesh, view, p);
   vec2 uv = interpolate(uvs.a, uvs.b, uvs.c, p.weights);
-  if (!cone || !uvs.present) return filtered_texel(scene, view, uv);
-  return blended_texel(scene, view, uv, blended_level(scene, view, uvs, cone_share));
+  bool cone = uvs.present && cone_share.of_triangle > 0.0f;
+  if (cone && cone_share.blended == 0u) {
+    return nearest_texel(scene, view, uv, mip_level(scene, view, uvs, cone_share));
+  }
+  float level = cone ? blended_level(scene, view, uvs, cone_share) : 0.0f;
+  return blended_texel(scene, view, uv, level);
 }
 
 /// Whether a footprint covers so much of a texture that the result is nearly the texture's mean;

@@ -56,55 +56,29 @@ LAMBENT_FN float sheen_lobe(vec3 to_viewer, vec3 to_light, float roughness) {
   return sheen_distribution(n_dot_h, alpha) / (4.0f * to_viewer.z * shadowed);
 }
 
-// Directional albedo of a white sheen: integrals for roughness kMinSheenRoughness to 1 in equal
-// steps (rows), and the square root of the cosine to the viewer from 0 to 1 (columns).
-const int kSheenRows = 12;
-const int kSheenColumns = 16;
-// clang-format off
-const float kSheenAlbedo[192] = {
-    0.9379f, 1.0000f, 0.9435f, 0.8008f, 0.6523f, 0.5146f, 0.3931f, 0.2893f,
-    0.2036f, 0.1355f, 0.0839f, 0.0472f, 0.0234f, 0.0094f, 0.0025f, 0.0001f,
-    0.8095f, 0.8946f, 0.8434f, 0.7368f, 0.6218f, 0.5122f, 0.4122f, 0.3232f,
-    0.2456f, 0.1794f, 0.1245f, 0.0809f, 0.0485f, 0.0253f, 0.0101f, 0.0016f,
-    0.7443f, 0.8302f, 0.7951f, 0.7079f, 0.6114f, 0.5179f, 0.4311f, 0.3519f,
-    0.2805f, 0.2171f, 0.1616f, 0.1145f, 0.0767f, 0.0467f, 0.0235f, 0.0069f,
-    0.7159f, 0.8040f, 0.7787f, 0.7026f, 0.6166f, 0.5324f, 0.4534f, 0.3804f,
-    0.3132f, 0.2519f, 0.1965f, 0.1474f, 0.1061f, 0.0712f, 0.0417f, 0.0173f,
-    0.7112f, 0.8028f, 0.7838f, 0.7137f, 0.6335f, 0.5544f, 0.4799f, 0.4103f,
-    0.3457f, 0.2856f, 0.2301f, 0.1796f, 0.1359f, 0.0975f, 0.0632f, 0.0325f,
-    0.7229f, 0.8184f, 0.8034f, 0.7363f, 0.6587f, 0.5821f, 0.5096f, 0.4418f,
-    0.3782f, 0.3186f, 0.2627f, 0.2109f, 0.1654f, 0.1244f, 0.0866f, 0.0513f,
-    0.7457f, 0.8450f, 0.8323f, 0.7661f, 0.6890f, 0.6130f, 0.5411f, 0.4737f,
-    0.4104f, 0.3505f, 0.2938f, 0.2408f, 0.1938f, 0.1509f, 0.1106f, 0.0723f,
-    0.7745f, 0.8771f, 0.8655f, 0.7986f, 0.7209f, 0.6444f, 0.5721f, 0.5044f,
-    0.4407f, 0.3802f, 0.3227f, 0.2686f, 0.2203f, 0.1761f, 0.1341f, 0.0938f,
-    0.8039f, 0.9088f, 0.8973f, 0.8292f, 0.7503f, 0.6728f, 0.5999f, 0.5317f,
-    0.4674f, 0.4063f, 0.3481f, 0.2932f, 0.2441f, 0.1990f, 0.1560f, 0.1147f,
-    0.8275f, 0.9336f, 0.9217f, 0.8526f, 0.7727f, 0.6946f, 0.6213f, 0.5528f,
-    0.4884f, 0.4271f, 0.3687f, 0.3134f, 0.2641f, 0.2187f, 0.1754f, 0.1338f,
-    0.8382f, 0.9440f, 0.9321f, 0.8629f, 0.7832f, 0.7056f, 0.6329f, 0.5651f,
-    0.5013f, 0.4408f, 0.3829f, 0.3281f, 0.2792f, 0.2343f, 0.1915f, 0.1504f,
-    0.8287f, 0.9329f, 0.9218f, 0.8545f, 0.7770f, 0.7016f, 0.6312f, 0.5655f,
-    0.5038f, 0.4452f, 0.3891f, 0.3359f, 0.2886f, 0.2451f, 0.2036f, 0.1638f};
-// clang-format on
-
-/// Directional albedo of a white sheen. Bilinear interpolation of the table is within 0.005 of the
-/// integrals for cosines above 0.03; at grazing angles of the narrowest lobes the error is 0.03.
+/// Directional albedo of a white sheen: a polynomial in the roughness and in the square root of the
+/// cosine, both shifted to [-1, 1], fitted to integrals for roughness kMinSheenRoughness to 1.
+/// Within 0.0025 for cosines above 0.03; at grazing angles of the narrowest lobes the error is
+/// 0.016. Not a table: many shaders contain this function, and devices keep tables in slow memory.
 LAMBENT_FN float sheen_albedo(float n_dot_v, float roughness) {
-  float column = sqrt(clamp(n_dot_v, 0.0f, 1.0f)) * float(kSheenColumns - 1);
-  float row = (clamp(roughness, kMinSheenRoughness, 1.0f) - kMinSheenRoughness) *
-              (float(kSheenRows - 1) / (1.0f - kMinSheenRoughness));
-  int i = min(int(row), kSheenRows - 2);
-  int j = min(int(column), kSheenColumns - 2);
-  int at = i * kSheenColumns + j;
-  float across = column - float(j);
-  float narrower = mix(kSheenAlbedo[at], kSheenAlbedo[at + 1], across);
-  float wider = mix(kSheenAlbedo[at + kSheenColumns], kSheenAlbedo[at + kSheenColumns + 1], across);
-  return mix(narrower, wider, row - float(i));
+  float t = 2.0f * sqrt(clamp(n_dot_v, 0.0f, 1.0f)) - 1.0f;
+  float within = (clamp(roughness, kMinSheenRoughness, 1.0f) - kMinSheenRoughness) /
+                 (1.0f - kMinSheenRoughness);
+  float r = 2.0f * within - 1.0f;
+  vec4 low = vec4(quartic(vec4(0.42627f, 0.17295f, -0.00411f, -0.02894f), -0.03188f, r),
+                  quartic(vec4(-0.48366f, 0.00604f, -0.08738f, 0.08548f), 0.01024f, r),
+                  quartic(vec4(0.06358f, -0.02819f, 0.04775f, -0.16723f), 0.13435f, r),
+                  quartic(vec4(0.06698f, -0.05585f, 0.04093f, 0.03567f), -0.05998f, r));
+  vec4 high = vec4(quartic(vec4(0.28387f, 0.02663f, 0.09053f, 0.02306f), -0.09939f, r),
+                   quartic(vec4(-0.2478f, 0.01648f, -0.04803f, 0.01935f), 0.03686f, r),
+                   quartic(vec4(-0.4114f, -0.04765f, -0.0861f, 0.06174f), 0.03291f, r),
+                   quartic(vec4(0.36466f, 0.0226f, 0.07448f, -0.0617f), -0.03077f, r));
+  float t2 = t * t;
+  return clamp(cubic(low, t) + t2 * t2 * cubic(high, t), 0.0f, 1.0f);
 }
 
-/// Mean of sheen_albedo over light from a uniform sky: a polynomial fitted to the table within
-/// 0.0013.
+/// Mean of sheen_albedo over light from a uniform sky: a polynomial fitted to its means within
+/// 0.002.
 LAMBENT_FN float mean_sheen_albedo(float roughness) {
   return cubic(vec4(0.0405245f, -0.114617f, 0.90714f, -0.532938f), roughness);
 }
