@@ -75,6 +75,9 @@ struct DenoiseSettings {
   /// above 0 to 1024. Lower values preserve more faint detail, and more noise. Noise alone hardly
   /// ever exceeds the default of three standard deviations.
   float noise_tolerance = 3.0f;
+  /// With lobes: light is averaged over about this share of their width; above 0 to 16. With the
+  /// default, reflections look as if the surface were 2 % rougher.
+  float lobe_share = 0.5f;
 };
 
 /// Fails with the first setting that is out of range.
@@ -86,6 +89,10 @@ DenoiseSettings emitter_denoising();
 /// Settings with which all passes ignore differences of light: for quantities that are spread over
 /// surfaces whatever their noise, and for light that lobes reflect.
 DenoiseSettings geometric_denoising();
+
+/// geometric_denoising() for the excess of light that lobes reflect: what single rays brought that
+/// are so rare that their light is best spread beyond the lobes that found it.
+DenoiseSettings excess_denoising();
 
 /// The radius [pixels] around a pixel on which its filtered light depends.
 int denoise_reach(const DenoiseSettings& settings);

@@ -21,18 +21,18 @@ void keep(std::span<const T> band, std::size_t first, std::size_t pixels, std::v
   if (!band.empty()) std::copy(band.begin(), band.end(), &all[first]);
 }
 
-/// Filters the light of rare bright rays over the surfaces, without regard to differences of light.
-void add_excess(const DenoiseView& view, FilteredPixels& pixels) {
+/// Filters the light of rare bright rays, without regard to differences of light, and adds it to
+/// the light that is filtered already.
+void add_excess(const DenoiseView& view, std::span<const vec3> excess,
+                const DenoiseSettings& settings, FilteredPixels& pixels, std::span<vec3> filtered) {
   const auto is_some = [](const vec3& light) { return light != vec3(0.0f); };
-  if (std::none_of(pixels.excess.begin(), pixels.excess.end(), is_some)) return;
-  pixels.filtered_excess.resize(pixels.excess.size());
-  [[maybe_unused]] const Expected<void> done = pixels.denoiser.filter(
-      view, {pixels.excess, {}, {}}, geometric_denoising(), pixels.filtered_excess);
+  if (std::none_of(excess.begin(), excess.end(), is_some)) return;
+  pixels.filtered_excess.resize(excess.size());
+  [[maybe_unused]] const Expected<void> done =
+      pixels.denoiser.filter(view, {excess, {}, {}}, settings, pixels.filtered_excess);
   assert(done);  // sizes are the view's
-  parallel_chunks(pixels.excess.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      pixels.filtered_gathered[i] += pixels.filtered_excess[i];
-    }
+  parallel_chunks(excess.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) filtered[i] += pixels.filtered_excess[i];
   });
 }
 
@@ -47,6 +47,7 @@ bool filter_lobes(DenoiseView view, FilteredPixels& pixels, FilteredCoats& coats
   [[maybe_unused]] const Expected<void> done =
       pixels.denoiser.filter(view, {coats.light, {}, {}}, geometric_denoising(), coats.filtered);
   assert(done);  // sizes are the view's
+  add_excess(view, coats.excess, excess_denoising(), pixels, coats.filtered);
   return true;
 }
 
@@ -82,18 +83,20 @@ void keep_coats(const KeptBand& band, const GBuffer& surfaces, const CoatLight& 
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t pixel = band.first + i;
       const vec4 light = by_rays.empty() ? vec4(0.0f) : by_rays.light[i];
-      coats.light[pixel] = vec3(0.0f);
+      coats.light[pixel] = coats.excess[pixel] = vec3(0.0f);
       coats.alphas[pixel] = 0.0f;
       if (surfaces.hit[i] == 0 || light.w <= 0.0f) continue;
       const Surface& surface = surfaces.surfaces[i];
       if (surface.reflectance.alpha <= least_alpha) continue;
       const vec3 albedo = filtered_coat_albedo(
           surface.reflectance, dot(surface.normal_ws, surfaces.to_viewer_ws[i]), light.w);
-      coats.light[pixel] = vec3(light) / albedo;
+      const CoatGuide& guide = by_rays.guides[i];
+      coats.light[pixel] = (vec3(light) - guide.excess) / albedo;
+      coats.excess[pixel] = guide.excess / albedo;
       coats.albedo[pixel] = shown_weight(band.light.gbuffer, band.light.fog, i) * albedo;
       if (!coats.normals_ws.empty()) coats.normals_ws[pixel] = surface.normal_ws;
       coats.alphas[pixel] = surface.reflectance.alpha;
-      coats.inverse_distances[pixel] = by_rays.inverse_distances[i];
+      coats.inverse_distances[pixel] = guide.inverse_distance;
     }
   });
 }
@@ -115,6 +118,7 @@ void keep_all_coats(const KeptBand& band, std::size_t pixels, FilteredPixels& ke
                kept.clearcoats);
   } else if (light.filters_clearcoats) {
     std::fill_n(&kept.clearcoats.light[band.first], gbuffer.size(), vec3(0.0f));
+    std::fill_n(&kept.clearcoats.excess[band.first], gbuffer.size(), vec3(0.0f));
     std::fill_n(&kept.clearcoats.alphas[band.first], gbuffer.size(), 0.0f);
   }
 }
@@ -171,6 +175,7 @@ void keep_highlights(const BandToFilter& light, std::size_t first, std::size_t c
 
 void FilteredCoats::resize(std::size_t pixels) {
   light.resize(pixels);
+  excess.resize(pixels);
   albedo.resize(pixels);
   alphas.resize(pixels);
   inverse_distances.resize(pixels);
@@ -298,7 +303,7 @@ void filter_pixels(const FrameRequest& request, FilteredPixels& pixels) {
         pixels.denoiser.filter(view, {pixels.gathered, pixels.looked_up, pixels.gathered_variance},
                                {}, pixels.filtered_gathered);
     assert(done);  // sizes are the view's
-    add_excess(view, pixels);
+    add_excess(view, pixels.excess, geometric_denoising(), pixels, pixels.filtered_gathered);
   }
   if (!pixels.emitters.empty()) {
     view.normals_ws = pixels.normals_ws;

@@ -16,12 +16,13 @@ namespace lambent {
 
 /// Light that coats reflect from rays, one entry a pixel.
 struct FilteredCoats {
-  std::vector<glm::vec3> light;          ///< Divided by filtered_coat_albedo().
+  std::vector<glm::vec3> light;          ///< Without excess; divided by filtered_coat_albedo().
+  std::vector<glm::vec3> excess;         ///< See CoatGuide; divided likewise.
   std::vector<glm::vec3> albedo;         ///< filtered_coat_albedo() times the fog's transmittance.
   std::vector<glm::vec3> normals_ws;     ///< Clearcoats' normals; empty for coats.
   std::vector<float> alphas;             ///< GGX widths; 0 where no rays light a coat.
-  std::vector<float> inverse_distances;  ///< See CoatLight.
-  std::vector<glm::vec3> filtered;       ///< `light` once filtered; empty where there is none.
+  std::vector<float> inverse_distances;  ///< See CoatGuide.
+  std::vector<glm::vec3> filtered;       ///< Both once filtered; empty where there is none.
 
   /// Makes room for this many pixels; 0 for none.
   void resize(std::size_t pixels);
@@ -47,7 +48,7 @@ struct FilteredPixels {
   // lobes have a width of highlight_alpha()
   std::vector<glm::vec3> highlights, highlight_albedo;
   std::vector<float> highlight_alphas;
-  std::vector<float> highlight_inverse_distances;  ///< See CoatLight; valid where alphas are not 0.
+  std::vector<float> highlight_inverse_distances;  ///< See CoatGuide; valid where alphas are not 0.
   // Light once filtered
   std::vector<glm::vec3> filtered_gathered, filtered_excess, filtered_emitters, filtered_highlights;
 

@@ -25,9 +25,11 @@ struct FilteredPixelsRecord {
   Vec3Array emitter_albedo;
   FloatArray emitter_levels;
   Vec3Array coats;
+  Vec3Array coat_excess;
   Vec3Array coat_albedo;
   LobeGuideArray coat_lobes;  ///< Sharpness 0 where no rays light a coat.
   Vec3Array clearcoats;       ///< Like the coats' arrays, but with normals.
+  Vec3Array clearcoat_excess;
   Vec3Array clearcoat_albedo;
   Vec3Array clearcoat_normals_ws;
   LobeGuideArray clearcoat_lobes;
@@ -53,7 +55,7 @@ struct KeepPixelsArguments {
   Vec3Array irradiance;        ///< Result of the lookups.
   Vec4Array fog;               ///< See fog_along(); read where kHasFog is set.
   Vec4Array coats;             ///< See CoatLight; read where kHasCoats is set.
-  FloatArray coat_inverse_distances;
+  CoatGuideArray coat_guides;  ///< Of CoatLight, as are those of clearcoats below.
   FilteredPixelsArray pixels;
   vec3 camera_ws;
   vec3 camera_back;  ///< Unit; against the direction of view.
@@ -71,7 +73,7 @@ struct KeepClearcoatsArguments {
   LitPointArray points;        ///< With the clearcoats' normals.
   PixelSurfaceArray surfaces;  ///< With clearcoats in the place of coats.
   Vec4Array coats;             ///< See CoatLight; read where has_rays is 1.
-  FloatArray inverse_distances;
+  CoatGuideArray guides;
   FilteredPixelsArray pixels;
   uint first;  ///< First pixel of the band among the traced pixels.
   uint count;

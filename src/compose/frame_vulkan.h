@@ -100,15 +100,16 @@ struct FrameKernels {
   vulkan::Kernel add_filtered{device, shaders::add_filtered_comp(), "add filtered"};
 };
 
-/// Light that is filtered, of the traced rows: 364 bytes a pixel. See FilteredPixelsRecord.
+/// Light that is filtered, of the traced rows: 388 bytes a pixel. See FilteredPixelsRecord.
 struct FilteredBuffers {
   FilteredPixelsRecord record;
   vulkan::Buffer addresses;  ///< Holds `record`.
   vulkan::Buffer positions_ws, normals_ws, geometric_normals_ws, depths;
   vulkan::Buffer gathered, gathered_variance, excess, looked_up, indirect_albedo, received_weight;
   vulkan::Buffer emitters, emitter_variance, emitter_albedo, emitter_levels;
-  vulkan::Buffer coats, coat_albedo, coat_lobes;
-  vulkan::Buffer clearcoats, clearcoat_albedo, clearcoat_normals_ws, clearcoat_lobes;
+  vulkan::Buffer coats, coat_excess, coat_albedo, coat_lobes;
+  vulkan::Buffer clearcoats, clearcoat_excess, clearcoat_albedo;
+  vulkan::Buffer clearcoat_normals_ws, clearcoat_lobes;
   vulkan::Buffer highlights, highlight_albedo, highlight_lobes;
   vulkan::Buffer filtered_gathered, filtered_emitters, filtered_coats, filtered_highlights;
   vulkan::Buffer filtered_clearcoats;
@@ -176,7 +177,7 @@ struct FrameMemory {
   vulkan::Buffer scene_before, instances_before, positions_before;
   // Pixels, rays and lists of paths, for the rows around a band whose coats are lit by rays.
   // Bounces use the two lists in turn
-  vulkan::Buffer coats, coat_inverse_distances, coat_points, coat_surfaces, coat_rays;
+  vulkan::Buffer coats, coat_guides, coat_points, coat_surfaces, coat_rays;
   PathBuffers path_lists[2];
   PathBuffers forks;  // reflected branches, traced later
   vulkan::Buffer path_hits, path_points, path_surfaces, path_diffuse, path_specular;

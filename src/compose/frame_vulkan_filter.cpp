@@ -45,10 +45,12 @@ void FramePassesVulkan::begin_filter() {
   r.filtered_emitters.address = room(lit, sizeof(vec3), f.filtered_emitters);
   const std::size_t coated = filters_coats() ? pixels : 0;
   r.coats.address = room(coated, sizeof(vec3), f.coats);
+  r.coat_excess.address = room(coated, sizeof(vec3), f.coat_excess);
   r.coat_albedo.address = room(coated, sizeof(vec3), f.coat_albedo);
   r.coat_lobes.address = room(coated, sizeof(LobeGuide), f.coat_lobes);
   const std::size_t clearcoated = filters_clearcoats(*request_) ? pixels : 0;
   r.clearcoats.address = room(clearcoated, sizeof(vec3), f.clearcoats);
+  r.clearcoat_excess.address = room(clearcoated, sizeof(vec3), f.clearcoat_excess);
   r.clearcoat_albedo.address = room(clearcoated, sizeof(vec3), f.clearcoat_albedo);
   r.clearcoat_normals_ws.address = room(clearcoated, sizeof(vec3), f.clearcoat_normals_ws);
   r.clearcoat_lobes.address = room(clearcoated, sizeof(LobeGuide), f.clearcoat_lobes);
@@ -88,7 +90,7 @@ void FramePassesVulkan::keep_pixels() {
                                            {memory_.irradiance.address()},
                                            {memory_.pixel_fog.address()},
                                            {memory_.coats.address()},
-                                           {memory_.coat_inverse_distances.address()},
+                                           {memory_.coat_guides.address()},
                                            {memory_.filtered.addresses.address()},
                                            vec3(view[3]),
                                            normalize(vec3(view[2])),
@@ -107,13 +109,17 @@ void FramePassesVulkan::denoise_coats(const DenoiseViewOnDevice& view) {
     const FilteredPixelsRecord& r = memory_.filtered.record;
     DenoiseViewOnDevice of_lobes = view;
     of_lobes.lobes = r.coat_lobes;
-    memory_.denoiser.record(to, of_lobes, {r.coats}, geometric_denoising(), r.filtered_coats);
+    const auto filter = [&](const DenoiseViewOnDevice& lobes, Vec3Array light, Vec3Array excess,
+                            Vec3Array filtered) {
+      memory_.denoiser.record(to, lobes, {light}, geometric_denoising(), filtered);
+      memory_.denoiser.record(to, lobes, {excess}, excess_denoising(), filtered, true);
+    };
+    filter(of_lobes, r.coats, r.coat_excess, r.filtered_coats);
     if (filters_clearcoats(*request_)) {
       DenoiseViewOnDevice of_clearcoats = view;
       of_clearcoats.normals_ws = r.clearcoat_normals_ws;
       of_clearcoats.lobes = r.clearcoat_lobes;
-      memory_.denoiser.record(to, of_clearcoats, {r.clearcoats}, geometric_denoising(),
-                              r.filtered_clearcoats);
+      filter(of_clearcoats, r.clearcoats, r.clearcoat_excess, r.filtered_clearcoats);
     }
     if (emitter_draws() == 0) return;
     of_lobes.lobes = r.highlight_lobes;

@@ -106,14 +106,15 @@ LAMBENT_REAL_FN AtrousLobe lobe_at(int x, int y) {
 /// points. The smaller of the two distances and the sharper of the two lobes count, so that the
 /// weight is the same in both directions. Lobes of different widths show different parts of the
 /// scene.
-LAMBENT_REAL_FN Real difference_of_lobes(AtrousLobe here, AtrousLobe there, Real3 to_neighbour,
-                                         Real3 across_ws) {
+LAMBENT_REAL_FN Real difference_of_lobes(AtrousPass by, AtrousLobe here, AtrousLobe there,
+                                         Real3 to_neighbour, Real3 across_ws) {
   Real3 apart = to_neighbour * larger(here.inverse_distance, there.inverse_distance) +
                 (there.mirror_ws - here.mirror_ws);
   Real sideways = dot(apart, across_ws);
   Real widths =
       (here.sharpness - there.sharpness) / (here.sharpness + there.sharpness + kLeastLobeSharpness);
-  return (dot(apart, apart) + sideways * sideways) * larger(here.sharpness, there.sharpness) +
+  Real sharpness = larger(here.sharpness, there.sharpness) * by.lobe_scale;
+  return (dot(apart, apart) + sideways * sideways) * sharpness +
          kWidthSharpness * (widths * widths);
 }
 
@@ -178,7 +179,7 @@ LAMBENT_REAL_FN AtrousLight filtered_pixel(AtrousPass by) {
     Real cosine = dot(here.normal_ws, there.normal_ws);
     Real difference = difference_of_surfaces(by, here, plane_scale, there, cosine);
     if (by.has_lobes != 0u) {
-      difference += difference_of_lobes(lobe, lobe_at(x * by.apart, y * by.apart),
+      difference += difference_of_lobes(by, lobe, lobe_at(x * by.apart, y * by.apart),
                                         there.position_ws - here.position_ws, across_ws);
     }
     if (by.geometric == 0u) {

@@ -34,11 +34,6 @@ const int kLobeSharpnessPlane = 6;
 const int kInverseHitDistancePlane = 7;
 const int kLobePlanes = 8;
 
-// The filter averages over this share of a lobe's own width [GGX alpha, radians]. All passes
-// together then have a fifth of the lobe's deviation, and reflections are blurred as if the surface
-// were 2 % rougher, which is invisible.
-const float kFilteredLobeShare = 0.5f;
-
 // Penalty on neighbours whose lobes have another width, times the square of the difference of the
 // two sharpnesses over their sum: a roughness that is a tenth higher takes an eighth off the
 // weight, and one twice as high nearly all of it.
@@ -68,6 +63,7 @@ struct AtrousPass {
   float normal_sharpness;  ///< See DenoiseSettings.
   float plane_scale;       ///< 1 / DenoiseSettings::plane_tolerance.
   float contrast_scale;    ///< 1 / DenoiseSettings::noise_tolerance^2.
+  float lobe_scale;        ///< 1 / DenoiseSettings::lobe_share^2.
   uint geometric;          ///< 1: the light of pixels is not compared.
   uint ends_geometric;     ///< 1: the last geometric pass, after which the variance is known.
   uint measured;           ///< 1: variances were measured per pixel; 0: estimated from neighbours.
@@ -82,8 +78,7 @@ struct LobeGuide {
   vec3 mirror_ws;  ///< Mirror direction, where the lobe is about densest; unit.
   vec3 across_ws;  ///< Perpendicular to the plane of incidence, as long as the tangent of the angle
                    ///< of incidence: lobes of grazing angles are that much narrower sideways.
-  float sharpness;  ///< One over the square of the angle that is averaged over [1/rad^2]; 0: there
-                    ///< is no lobe.
+  float sharpness;  ///< One over the square of the lobe's GGX width [1/rad^2]; 0: there is no lobe.
   float inverse_distance;  ///< One over the distance to what the lobe shows [1/m].
 };
 
@@ -91,9 +86,8 @@ struct LobeGuide {
 LAMBENT_FN LobeGuide lobe_guide(vec3 normal_ws, vec3 to_viewer_ws, float alpha,
                                 float inverse_distance) {
   float cosine = max(dot(normal_ws, to_viewer_ws), kLeastLobeCosine);
-  float width = kFilteredLobeShare * alpha;
   LobeGuide guide = {reflect(-to_viewer_ws, normal_ws),
-                     cross(normal_ws, to_viewer_ws) * (1.0f / cosine), 1.0f / (width * width),
+                     cross(normal_ws, to_viewer_ws) * (1.0f / cosine), 1.0f / (alpha * alpha),
                      inverse_distance};
   return guide;
 }

@@ -8,6 +8,11 @@ namespace lambent {
 namespace {
 
 constexpr float kMostSharpness = 1024.0f;  // also for noise tolerance: practically infinite
+constexpr float kMostLobeShare = 16.0f;    // of the widest lobe: all directions
+
+// Excess is averaged over this share of lobes' width: specks grow six times as wide and hide in
+// the light around them. Twice that washes reflections out.
+constexpr float kExcessLobeShare = 3.0f;
 
 Expected<void> check_range(const char* name, bool fine, const char* range) {
   if (fine) return {};
@@ -27,7 +32,9 @@ Expected<void> check(const DenoiseSettings& s) {
                   "above 0 to 1"),
       check_range("noise tolerance",
                   s.noise_tolerance > 0.0f && s.noise_tolerance <= kMostSharpness,
-                  "above 0 to 1024")};
+                  "above 0 to 1024"),
+      check_range("lobe share", s.lobe_share > 0.0f && s.lobe_share <= kMostLobeShare,
+                  "above 0 to 16")};
   for (const Expected<void>& fine : checks) {
     if (!fine) return fine;
   }
@@ -48,6 +55,12 @@ DenoiseSettings geometric_denoising() {
   return geometric;
 }
 
+DenoiseSettings excess_denoising() {
+  DenoiseSettings settings = geometric_denoising();
+  settings.lobe_share = kExcessLobeShare;
+  return settings;
+}
+
 int denoise_reach(const DenoiseSettings& settings) {
   return (1 << settings.passes) - 1;
 }
@@ -58,6 +71,7 @@ std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has
   // first pass averages variances alone, and not even the smallest shadows are blurred (Schied et
   // al. 2017, sec. 4.4: variances are filtered before they are used)
   const bool knows_noise = has_levels && measured;
+  const float inverse_share = 1.0f / settings.lobe_share;
   std::vector<AtrousPass> passes;
   for (int i = 0; i < settings.passes; ++i) {
     AtrousPass pass;
@@ -65,6 +79,7 @@ std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has
     pass.normal_sharpness = settings.normal_sharpness;
     pass.plane_scale = 1.0f / settings.plane_tolerance;
     pass.contrast_scale = 1.0f / (settings.noise_tolerance * settings.noise_tolerance);
+    pass.lobe_scale = inverse_share * inverse_share;
     pass.geometric = i < settings.geometric_passes ? 1 : 0;
     pass.ends_geometric = i == settings.geometric_passes - 1 ? 1 : 0;
     pass.only_spread = knows_noise && i == 0 ? 1 : 0;

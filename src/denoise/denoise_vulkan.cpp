@@ -28,7 +28,7 @@ void DenoiserVulkan::record(vulkan::Recorder& to, const DenoiseViewOnDevice& vie
   for (const AtrousPass& by : denoise_passes(settings, has_base, measured, has_levels, has_lobes)) {
     const DenoisePassArguments pass = {
         view.positions_ws, view.normals_ws, view.depths, light.levels, view.lobes, from, into, by,
-        view.width,        view.height,     0u};
+        view.width,        view.height};
     to.run(kernels_.pass, pass, count);
     to.barrier();
     std::swap(from, into);

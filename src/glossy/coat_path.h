@@ -86,5 +86,12 @@ LAMBENT_FN float inverse_seen_distance(float distance) {
   return left_scene(distance) ? 0.0f : 1.0f / max(distance, kLeastSeenDistance);
 }
 
+/// What the filter is told of the light that a pixel's coat reflects from rays.
+struct CoatGuide {
+  vec3 excess;             ///< Part of the light, see kBrightestCoatRay [W/(m^2 sr)].
+  float inverse_distance;  ///< One over the distance to what the coat reflects [1/m].
+};
+LAMBENT_DEVICE_ARRAY(CoatGuideArray, CoatGuide, 4)
+
 LAMBENT_END
 #endif

@@ -50,7 +50,12 @@ struct CoatSums {
   Real own_weight;  ///< Weight of the pixel's own ray.
   Real pixels;      ///< Sum of the weights of the pixels whose rays were taken.
   Real fitting;     ///< Part of `pixels` whose lobes match the receiver's.
+  Real3 brightest;  ///< The part of `light` from the ray that brought the most.
 };
+
+LAMBENT_REAL_FN Real level_of(Real3 light) {
+  return light.x * kRedLuminance + light.y * kGreenLuminance + light.z * kBlueLuminance;
+}
 
 /// Walter et al. 2007, Eq. 33, as a function of the half vector. Exact for the narrowest lobes,
 /// too, for which the cosine alone rounds to 1.
@@ -87,7 +92,9 @@ LAMBENT_REAL_FN void add_light_of_ray(CoatReceiver at, LobeValue lobe, Real3 dir
   Real above = select(dot(at.lobe.geometric_normal_ws, direction_ws) > 0.0f, weight, 0.0f);
   Real power = schlick_power(lobe.v_dot_h);
   Real3 reflected = schlick_reflectance(at.reflectance.f0, at.reflectance.f90, power) * above;
-  sums.light += reflected * ray.radiance;
+  Real3 light = reflected * ray.radiance;
+  sums.light += light;
+  sums.brightest = select(level_of(light) > level_of(sums.brightest), light, sums.brightest);
   sums.emission += reflected * (ray.apart * found_light_weight(lobe.pdf, ray.apart_density));
 }
 

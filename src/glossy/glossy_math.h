@@ -60,6 +60,10 @@ const float kLeastPixelWeight = 1e-12f;
 /// where a coat reflects one part in 1e8.
 const float kLeastReflected = 1e-20f;
 
+/// Most that a single ray brings, as a share of what all others around a pixel bring together. What
+/// it brings above that is excess: so rare that the rays around cannot tell where such light ends.
+const float kBrightestCoatRay = 0.5f;
+
 /// Neighbours this far from a pixel's plane have no weight [pixel widths at its depth]: the surface
 /// of a sphere that covers few pixels curves away as much from its tangent plane within the reach.
 const float kPlaneTolerance = 4.0f;
@@ -116,6 +120,12 @@ LAMBENT_FN bool all_zero(float x) {
 #undef Real
 #undef Real3
 #undef LAMBENT_REAL_FN
+
+/// Sums over no ray.
+LAMBENT_FN CoatSums no_coat_sums() {
+  CoatSums none = {vec3(0.0f), vec3(0.0f), 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, vec3(0.0f)};
+  return none;
+}
 
 /// The lobe of a coat of this GGX width.
 LAMBENT_FN CoatLobe make_coat_lobe(vec3 position_ws, vec3 geometric_normal_ws, vec3 normal_ws,
@@ -216,7 +226,7 @@ LAMBENT_FN void find_lobe(LAMBENT_INOUT(CoatReceiver) at) {
 
 /// Radiance that the receiver reflects, estimated from its own ray alone.
 LAMBENT_FN vec3 reflected_own_ray(CoatReceiver at) {
-  CoatSums alone = {vec3(0.0f), vec3(0.0f), 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+  CoatSums alone = no_coat_sums();
   if (at.own.pdf > 0.0f) {
     float weight = at.at_own.value / at.at_own.pdf;
     add_light_of_ray(at, at.at_own, at.own.direction_ws, at.own, weight, alone);
@@ -224,7 +234,20 @@ LAMBENT_FN vec3 reflected_own_ray(CoatReceiver at) {
   return alone.light + alone.emission;
 }
 
-/// Radiance that the receiver reflects; negative where there is no ray.
+/// Radiance that a receiver reflects of the rays around it.
+struct ReflectedRays {
+  vec3 light;   ///< All of it; negative where there is no ray.
+  vec3 excess;  ///< The part of it that is excess, see kBrightestCoatRay.
+};
+
+/// The part of the brightest ray's light that is excess.
+LAMBENT_FN vec3 excess_of(CoatSums sums) {
+  float brought = luminance(sums.brightest);
+  float most = kBrightestCoatRay * max(luminance(sums.light) - brought, 0.0f);
+  return brought > most ? sums.brightest * (1.0f - most / brought) : vec3(0.0f);
+}
+
+/// Computes the radiance that the receiver reflects.
 ///
 /// Where many rays around fit its lobe, it is their mean divided by the mean of the lobe's weights,
 /// times the known albedo of the lobe. Elsewhere it is the estimate of its own ray: rays that
@@ -235,27 +258,34 @@ LAMBENT_FN vec3 reflected_own_ray(CoatReceiver at) {
 /// energy would be lost. A receiver without a ray of its own always takes the mean. Emission has
 /// weights of multiple importance sampling already, so that it is divided by the weight of the
 /// pixels alone.
-LAMBENT_FN vec3 reflected_rays(CoatReceiver at, CoatSums sums) {
-  if (sums.pixels <= 0.0f) return at.own.pdf == 0.0f ? vec3(-1.0f) : reflected_own_ray(at);
+LAMBENT_FN ReflectedRays reflected_rays(CoatReceiver at, CoatSums sums) {
+  bool has_own = at.own.pdf != 0.0f;
+  ReflectedRays rays = {vec3(-1.0f), vec3(0.0f)};
+  if (sums.pixels <= 0.0f) {
+    if (has_own) rays.light = reflected_own_ray(at);
+    return rays;
+  }
   if (sums.own_weight > 0.0f) {
     add_light_of_ray(at, at.at_own, at.own.direction_ws, at.own, sums.own_weight, sums);
     sums.weight += sums.own_weight;
     sums.schlick += sums.own_weight * schlick_power(at.at_own.v_dot_h);
   }
   float known = clamp((sums.fitting - 1.0f) / (kRaysOfMean - 1.0f), 0.0f, 1.0f);
-  if (at.own.pdf == 0.0f) known = 1.0f;
+  if (!has_own) known = 1.0f;
   vec3 unknown = known < 1.0f ? reflected_own_ray(at) : vec3(0.0f);
+  if (has_own) rays.light = unknown;
   // The reciprocal of the smallest weights is infinite
-  if (sums.weight < kLeastPixelWeight) return at.own.pdf == 0.0f ? vec3(-1.0f) : unknown;
-  if (known <= 0.0f) return unknown;
+  if (sums.weight < kLeastPixelWeight || known <= 0.0f) return rays;
   vec3 reflected =
       at.reflectance.f0 * (sums.weight - sums.schlick) + vec3(at.reflectance.f90 * sums.schlick);
   vec3 albedo = specular_albedo(at.reflectance, dot(at.lobe.normal_ws, at.lobe.to_viewer_ws));
   vec3 scale = albedo / max(reflected, vec3(kLeastReflected));
-  return mix(unknown, sums.light * scale + sums.emission / sums.pixels, known);
+  rays.light = mix(unknown, sums.light * scale + sums.emission / sums.pixels, known);
+  rays.excess = known * scale * excess_of(sums);
+  return rays;
 }
 
-/// The result of reflected_rays() and 1; all 0 where there is no ray.
+/// The light of reflected_rays() and 1; all 0 where there is no ray.
 LAMBENT_FN vec4 light_by_rays(vec3 reflected) {
   return reflected.x < 0.0f ? vec4(0.0f) : vec4(reflected, 1.0f);
 }

@@ -134,9 +134,9 @@ struct CoatReuseArguments {
   LitPointArray points;
   PixelSurfaceArray surfaces;
   CoatRayArray coat_rays;
-  Vec4Array light;               ///< See CoatLight; one a pixel of the band.
-  FloatArray inverse_distances;  ///< See CoatLight; written where `finds_distances` is 1.
-  Vec3Array sky;                 ///< See reflect_band(); one a pixel, read where `has_sky` is 1.
+  Vec4Array light;        ///< See CoatLight; one a pixel of the band.
+  CoatGuideArray guides;  ///< See CoatLight; written where `finds_guides` is 1.
+  Vec3Array sky;          ///< See reflect_band(); one a pixel, read where `has_sky` is 1.
   vec3 camera_ws;
   vec3 camera_back;   ///< Unit; against the direction of view.
   float pixel_width;  ///< [m], at a distance of one metre; orthographic cameras: everywhere.
@@ -149,7 +149,7 @@ struct CoatReuseArguments {
   uint rows;
   uint sample_index;
   uint has_sky;
-  uint finds_distances;
+  uint finds_guides;
   uint padding;
 };
 

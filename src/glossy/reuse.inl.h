@@ -7,12 +7,12 @@
 //   CoatRay fetch_ray(CoatViewRef view, ivec2 pixel)
 //   ivec2 view_size(CoatViewRef view)                    of the picture [pixels]
 
-/// Light of a pixel's coat from rays, and 1; all 0 where there is no ray near it. Takes the pixel's
-/// own ray, which `at` holds, and those of the pixels around it in every `rows`-th row. The
-/// outermost have half their weight, so that the total is that of 4 x 4 rays.
-LAMBENT_FN vec4 reuse_rays(CoatViewRef view, ivec2 pixel, CoatReceiver at, uint sample_index,
-                           uint rows) {
-  CoatSums sums = {vec3(0.0f), vec3(0.0f), 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+/// Light that a pixel's coat reflects of rays. Takes the pixel's own ray, which `at` holds, and
+/// those of the pixels around it in every `rows`-th row. The outermost have half their weight, so
+/// that the total is that of 4 x 4 rays.
+LAMBENT_FN ReflectedRays reuse_rays(CoatViewRef view, ivec2 pixel, CoatReceiver at,
+                                    uint sample_index, uint rows) {
+  CoatSums sums = no_coat_sums();
   ivec2 size = view_size(view);
   int reach = kReuse * int(rows);
   for (int dy = -reach; dy <= reach; ++dy) {
@@ -28,5 +28,5 @@ LAMBENT_FN vec4 reuse_rays(CoatViewRef view, ivec2 pixel, CoatReceiver at, uint 
       add_coat_ray(at, fetch_lobe(view, ivec2(x, y)), ray, weight, sums);
     }
   }
-  return light_by_rays(reflected_rays(at, sums));
+  return reflected_rays(at, sums);
 }

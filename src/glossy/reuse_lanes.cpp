@@ -106,6 +106,7 @@ HWY_INLINE void store_sums(const CoatSums& from, const SumPlanes& sums) {
   sums.put(kSumOwnWeight, from.own_weight);
   sums.put(kSumPixels, from.pixels);
   sums.put(kSumFitting, from.fitting);
+  sums.put(kSumBrightest, from.brightest);
 }
 
 }  // namespace
@@ -120,7 +121,7 @@ void reuse_in_lanes(const ReuseRow& row, RowPlanes& sums) {
     const Lanes receives = more.at(kReceives);
     if (all_zero(receives)) continue;
     const CoatReceiver at = receiver_at(own, more);
-    CoatSums found{none, none, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    CoatSums found{none, none, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, none};
     for (const NeighbourRow& neighbours : row.around) {
       for (int dx = -kReuse; dx <= kReuse; ++dx) {
         if (neighbours.own && dx == 0) continue;

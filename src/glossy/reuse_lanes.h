@@ -51,7 +51,8 @@ enum SumPlane : int {
   kSumOwnWeight = 8,
   kSumPixels = 9,
   kSumFitting = 10,
-  kSumPlanes = 11
+  kSumBrightest = 11,
+  kSumPlanes = 14
 };
 
 /// Rows of planes. Each row is padded with zeros, which mean no ray, as lanes and neighbours reach

@@ -68,7 +68,7 @@ vec2 range_of(const FlatView& view, uint sample) {
                       {},
                       0.0f};
       find_lobe(at);
-      const float light = reuse_rays(view, {x, y}, at, sample, 1).x;
+      const float light = reuse_rays(view, {x, y}, at, sample, 1).light.x;
       range = {std::min(range.x, light), std::max(range.y, light)};
     }
   }

@@ -40,9 +40,9 @@ struct Coat {
   DenoiseView view() const {
     return {width, height, positions, normals, depths, {to_viewer, alphas, inverse_distances}};
   }
-  std::vector<vec3> filtered() const {
+  std::vector<vec3> filtered(const DenoiseSettings& by = geometric_denoising()) const {
     std::vector<vec3> result(light.size());
-    EXPECT_TRUE(Denoiser().filter(view(), {light, {}, {}}, geometric_denoising(), result));
+    EXPECT_TRUE(Denoiser().filter(view(), {light, {}, {}}, by, result));
     return result;
   }
   /// One ray in eight brings light.
@@ -75,9 +75,9 @@ Spread spread_of(const std::vector<vec3>& light) {
 struct Reach {
   double sideways = 0.0, upright = 0.0;
 };
-Reach reach_of(Coat coat) {
+Reach reach_of(Coat coat, const DenoiseSettings& by = geometric_denoising()) {
   coat.light[coat.at(coat.width / 2, coat.height / 2)] = vec3(1.0f);
-  const std::vector<vec3> filtered = coat.filtered();
+  const std::vector<vec3> filtered = coat.filtered(by);
   double sum = 0.0;
   Reach reach;
   for (int y = 0; y < coat.height; ++y) {
@@ -117,6 +117,18 @@ TEST(DenoiseLobes, BlursLessThanTheLobeItself) {
     EXPECT_GT(reach.sideways * kPixelAngle, 0.15f * std::sqrt(2.0f) * alpha) << alpha;
     EXPECT_NEAR(reach.sideways, reach.upright, 0.02 * reach.upright);
   }
+}
+
+TEST(DenoiseLobes, SpreadsExcessBeyondTheLobe) {
+  const Coat coat(200, 160, 0.02f);
+  const double of_light = reach_of(coat).sideways;
+  const double of_excess = reach_of(coat, excess_denoising()).sideways;
+  EXPECT_NEAR(of_excess / of_light, 6.0, 1.0);
+  Coat bright = coat;
+  bright.light[bright.at(100, 80)] = vec3(1.0f);
+  double sum = 0.0;
+  for (const vec3& e : bright.filtered(excess_denoising())) sum += e.x;
+  EXPECT_NEAR(sum, 1.0, 0.02);
 }
 
 TEST(DenoiseLobes, KeepsWhatStandsCloseToTheCoat) {

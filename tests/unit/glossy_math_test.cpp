@@ -25,10 +25,24 @@ TEST(CoatSums, OfTheSmallestWeightsAreNumbers) {
     sums.weight = weight;
     sums.fitting = kRaysOfMean;
     sums.pixels = kLeastPixelWeight;
-    const vec3 light = reflected_rays(at, sums);
+    const vec3 light = reflected_rays(at, sums).light;
     EXPECT_TRUE(is_number(light)) << weight;
     EXPECT_GE(light.x, 0.0f) << weight;
   }
+}
+
+TEST(CoatSums, ExcessIsWhatOneRayBringsAboveHalfOfAllOthers) {
+  CoatSums sums = no_coat_sums();
+  EXPECT_EQ(excess_of(sums), vec3(0.0f));
+  sums.light = vec3(3.0f, 6.0f, 1.5f);
+  sums.brightest = sums.light / 3.0f;  // half of what the others bring
+  EXPECT_NEAR(excess_of(sums).y, 0.0f, 1e-6f);
+  sums.brightest = sums.light * 0.75f;  // three times as much
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(excess_of(sums)[c], sums.light[c] * (0.75f - 0.125f), 1e-6f) << c;
+  }
+  sums.brightest = sums.light;  // no other brings any
+  EXPECT_EQ(excess_of(sums), sums.light);
 }
 
 TEST(CoatDirection, IsADirectionForARoughnessThatRoundingLiftsAboveOne) {

@@ -80,6 +80,7 @@ class RayReuseTest : public testing::Test {
     ray.direction_ws = drawn.direction_ws;
     if (uniform() > 0.2f) ray.distance = 0.2f + 5.0f * uniform();
     ray.radiance = vec3(uniform(), uniform(), 3.0f * uniform());
+    if (uniform() < 0.03f) ray.radiance *= 200.0f;
     if (uniform() < 0.2f) {
       ray.apart = vec3(20.0f, 10.0f, 5.0f);
       ray.apart_density = 40.0f * uniform();
@@ -87,10 +88,16 @@ class RayReuseTest : public testing::Test {
     return ray;
   }
 
-  vec4 expected(const GlossySettings& settings, const ivec2& pixel) const {
+  /// Light and share of a pixel, and the excess of its light.
+  struct Expected {
+    vec4 light;
+    vec3 excess;
+  };
+  Expected expected(const GlossySettings& settings, const ivec2& pixel) const {
     const std::size_t i = place_of(pixel);
     const GBuffer& pixels = picture.pixels;
-    if (pixels.coat_shares[i].coat <= 0.0f) return vec4(0.0f);
+    const float share = pixels.coat_shares[i].coat;
+    if (share <= 0.0f) return {vec4(0.0f), vec3(0.0f)};
     const Surface& surface = pixels.surfaces[i];
     CoatReceiver at{fetch_lobe(picture, pixel),
                     surface.reflectance,
@@ -100,9 +107,9 @@ class RayReuseTest : public testing::Test {
                     {},
                     0.0f};
     find_lobe(at);
-    return pixels.coat_shares[i].coat * reuse_rays(picture, pixel, at,
-                                                   static_cast<uint>(settings.sample),
-                                                   static_cast<uint>(settings.frame.glossy_rows));
+    const ReflectedRays found = reuse_rays(picture, pixel, at, static_cast<uint>(settings.sample),
+                                           static_cast<uint>(settings.frame.glossy_rows));
+    return {share * light_by_rays(found.light), share * found.excess};
   }
 
   std::mt19937 random{7};
@@ -119,6 +126,7 @@ TEST_F(RayReuseTest, SumsUpInLanesWhatOnePixelAfterTheOtherDoes) {
   FrameSettings frame;
   frame.width = kWidth;
   frame.height = kHeight;
+  frame.denoise = true;  // finds the excess
   for (const int rows : {1, 2, 3}) {
     for (const int sample : {0, 1}) {
       frame.glossy_rows = rows;
@@ -127,19 +135,28 @@ TEST_F(RayReuseTest, SumsUpInLanesWhatOnePixelAfterTheOtherDoes) {
       const GlossyRows all{picture.pixels, 0};
       CoatLight light;
       RayReuse().reflect(settings, {&all, 1}, all, picture.rays, light);
-      int reflecting = 0;
+      int reflecting = 0, exceeding = 0;
       for (int y = 0; y < kHeight; ++y) {
         for (int x = 0; x < kWidth; ++x) {
-          const vec4 should = expected(settings, {x, y}), found = light.light[place_of({x, y})];
+          const std::size_t i = place_of({x, y});
+          const Expected should = expected(settings, {x, y});
+          // Lobes of mirrors turn the rounding of half vectors into that of light
           for (int c = 0; c < 4; ++c) {
-            // Lobes of mirrors turn the rounding of half vectors into that of light
-            EXPECT_NEAR(found[c], should[c], 1e-3f * std::abs(should[c]) + 1e-6f)
+            EXPECT_NEAR(light.light[i][c], should.light[c],
+                        1e-3f * std::abs(should.light[c]) + 1e-6f)
                 << x << ", " << y << " of every " << rows;
           }
-          reflecting += should.x > 0.0f ? 1 : 0;
+          for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(light.guides[i].excess[c], should.excess[c],
+                        1e-3f * std::abs(should.light[c]) + 1e-6f)
+                << x << ", " << y << " of every " << rows;
+          }
+          reflecting += should.light.x > 0.0f ? 1 : 0;
+          exceeding += should.excess.x > 0.0f ? 1 : 0;
         }
       }
       EXPECT_GT(reflecting, kWidth * kHeight / 2);
+      EXPECT_GT(exceeding, kWidth * kHeight / 20);
     }
   }
 }

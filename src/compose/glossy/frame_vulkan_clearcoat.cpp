@@ -44,7 +44,7 @@ void FramePassesVulkan::light_clearcoats() {
       const KeepClearcoatsArguments kept = {{points},
                                             {surfaces},
                                             {memory_.coats.address()},
-                                            {memory_.coat_inverse_distances.address()},
+                                            {memory_.coat_guides.address()},
                                             {memory_.filtered.addresses.address()},
                                             first_traced_pixel(),
                                             pixels_,

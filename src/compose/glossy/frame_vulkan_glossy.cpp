@@ -269,7 +269,7 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
 void FramePassesVulkan::reuse_coat_rays(const Band& around, const Buffer& sky) {
   reserve<vec4>(pixels_, "coats", memory_.coats);
   const bool filters = request_->settings.denoise;
-  reserve<float>(filters ? pixels_ : 0, "distances of coats", memory_.coat_inverse_distances);
+  reserve<CoatGuide>(filters ? pixels_ : 0, "guides of coats", memory_.coat_guides);
   add("glossy", [=, this, &sky](Recorder& to) {
     const FrameMemory& m = memory_;
     const FrameSettings& settings = request_->settings;
@@ -278,7 +278,7 @@ void FramePassesVulkan::reuse_coat_rays(const Band& around, const Buffer& sky) {
                                           {m.coat_surfaces.address()},
                                           {m.coat_rays.address()},
                                           {m.coats.address()},
-                                          {m.coat_inverse_distances.address()},
+                                          {m.coat_guides.address()},
                                           {sky.address()},
                                           camera.position_ws,
                                           camera.axes[2],

@@ -262,10 +262,7 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
   if (std::ranges::none_of(pixels.coat_shares, shines)) return 0;
   const FrameSettings& settings = request.settings;
   FrameSettings drawing = settings;
-  if (kind == CoatKind::clearcoat) {
-    drawing.seed = clearcoat_seed(settings.seed);
-    drawing.denoise = false;  // the distances to what clearcoats reflect are not used
-  }
+  if (kind == CoatKind::clearcoat) drawing.seed = clearcoat_seed(settings.seed);
   const int halo = glossy_halo(settings.glossy_rows);
   const int end_row = band.first_row + band.rows;
   const Band above{std::max(0, band.first_row - halo), std::min(halo, band.first_row)};

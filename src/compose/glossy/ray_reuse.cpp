@@ -77,7 +77,7 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
   const int first_row = around.front().first_row;
   const GBuffer& pixels = band.pixels;
   reflected.light.assign(pixels.size(), vec4(0.0f));
-  reflected.inverse_distances.assign(pixels.size(), 0.0f);
+  reflected.guides.assign(settings.frame.denoise ? pixels.size() : 0, {vec3(0.0f), 0.0f});
   parallel_chunks(pixels.size() / width, 1, [&](std::size_t begin, std::size_t) {
     const int y = band.first_row + static_cast<int>(begin);
     RaysAround seen{rays, first_row, {width, settings.frame.height}};
@@ -109,12 +109,14 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
     reuse_row({coats_, asked, y - first_row, 0, width, neighbours}, sums);
     for (std::size_t k = 0; k < receivers.size(); ++k) {
       const std::size_t i = begin * width + places[k];
-      reflected.light[i] = pixels.coat_shares[i].coat *
-                           light_by_rays(reflected_rays(receivers[k], sums_of(sums, 0, places[k])));
+      const float share = pixels.coat_shares[i].coat;
+      const ReflectedRays found = reflected_rays(receivers[k], sums_of(sums, 0, places[k]));
+      reflected.light[i] = share * light_by_rays(found.light);
       if (!settings.frame.denoise) continue;
-      reflected.inverse_distances[i] =
+      reflected.guides[i] = {
+          share * found.excess,
           seen.seen_inverse_distance(seen, {places[k], y}, static_cast<uint>(settings.sample),
-                                     static_cast<uint>(settings.frame.glossy_rows));
+                                     static_cast<uint>(settings.frame.glossy_rows))};
     }
   });
 }

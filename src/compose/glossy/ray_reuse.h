@@ -33,13 +33,12 @@ struct GlossyRows {
 struct CoatLight {
   /// RGB: the light, times A [W/(m^2 sr)]. A: the share of the coat's light that comes from rays.
   std::vector<glm::vec4> light;
-  /// One over the distance to what the coat reflects [1/m].
-  std::vector<float> inverse_distances;
+  std::vector<CoatGuide> guides;  ///< Empty where light is not filtered.
 
   bool empty() const { return light.empty(); }
   void clear() {
     light.clear();
-    inverse_distances.clear();
+    guides.clear();
   }
 };
 

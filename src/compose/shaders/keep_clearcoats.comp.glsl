@@ -15,6 +15,7 @@ void main() {
   if (i >= args.count) return;
   uint pixel = args.first + i;
   args.pixels.at[0].clearcoats.at[pixel] = vec3(0.0f);
+  args.pixels.at[0].clearcoat_excess.at[pixel] = vec3(0.0f);
   args.pixels.at[0].clearcoat_lobes.at[pixel].sharpness = 0.0f;
   PixelSurfaceRecord coat = args.surfaces.at[i];
   if ((coat.flags & kSurfaceMissed) != 0u || args.has_rays == 0u) return;
@@ -23,10 +24,12 @@ void main() {
   vec3 normal_ws = args.points.at[i].normal_ws;
   vec3 albedo =
       filtered_coat_albedo(coat.reflectance, dot(normal_ws, coat.to_viewer_ws), by_rays.w);
-  args.pixels.at[0].clearcoats.at[pixel] = vec3(by_rays) / albedo;
+  CoatGuide guide = args.guides.at[i];
+  args.pixels.at[0].clearcoats.at[pixel] = (vec3(by_rays) - guide.excess) / albedo;
+  args.pixels.at[0].clearcoat_excess.at[pixel] = guide.excess / albedo;
   args.pixels.at[0].clearcoat_albedo.at[pixel] = albedo;
   args.pixels.at[0].clearcoat_normals_ws.at[pixel] = normal_ws;
-  args.pixels.at[0].clearcoat_lobes.at[pixel] = lobe_guide(
-      normal_ws, coat.to_viewer_ws, coat.reflectance.alpha, args.inverse_distances.at[i]);
+  args.pixels.at[0].clearcoat_lobes.at[pixel] =
+      lobe_guide(normal_ws, coat.to_viewer_ws, coat.reflectance.alpha, guide.inverse_distance);
   args.coats.at[i] = vec4(vec3(0.0f), by_rays.w);
 }

@@ -17,15 +17,18 @@ layout(push_constant, scalar) uniform Push {
 bool keep_coat(uint i, uint pixel, LitPointRecord point, PixelSurfaceRecord surface, float weight) {
   vec4 by_rays = (args.has & kHasCoats) != 0u ? args.coats.at[i] : vec4(0.0f);
   args.pixels.at[0].coats.at[pixel] = vec3(0.0f);
+  args.pixels.at[0].coat_excess.at[pixel] = vec3(0.0f);
   args.pixels.at[0].coat_lobes.at[pixel].sharpness = 0.0f;
   if ((surface.flags & kSurfaceMissed) != 0u || by_rays.w <= 0.0f) return false;
   float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
   vec3 albedo = filtered_coat_albedo(surface.reflectance, n_dot_v, by_rays.w);
-  args.pixels.at[0].coats.at[pixel] = vec3(by_rays) / albedo;
+  CoatGuide guide = args.coat_guides.at[i];
+  args.pixels.at[0].coats.at[pixel] = (vec3(by_rays) - guide.excess) / albedo;
+  args.pixels.at[0].coat_excess.at[pixel] = guide.excess / albedo;
   args.pixels.at[0].coat_albedo.at[pixel] = weight * albedo;
   args.pixels.at[0].coat_lobes.at[pixel] =
       lobe_guide(point.normal_ws, surface.to_viewer_ws, surface.reflectance.alpha,
-                 args.coat_inverse_distances.at[i]);
+                 guide.inverse_distance);
   return true;
 }
 
@@ -45,7 +48,7 @@ void keep_highlight(uint i, uint pixel, LitPointRecord point, PixelSurfaceRecord
     float alpha = highlight_alpha(surface.reflectance);
     if (alpha > 0.0f) {
       float inverse_distance = coat_has_rays
-                                   ? args.coat_inverse_distances.at[i]
+                                   ? args.coat_guides.at[i].inverse_distance
                                    : args.pixels.at[0].clearcoat_lobes.at[pixel].inverse_distance;
       args.pixels.at[0].highlight_lobes.at[pixel] =
           lobe_guide(point.normal_ws, surface.to_viewer_ws, alpha, inverse_distance);

@@ -38,7 +38,7 @@ void main() {
   uint k = gl_GlobalInvocationID.x;
   if (k >= args.count) return;
   args.light.at[k] = vec4(0.0f);
-  if (args.finds_distances != 0u) args.inverse_distances.at[k] = 0.0f;
+  if (args.finds_guides != 0u) args.guides.at[k] = CoatGuide(vec3(0.0f), 0.0f);
   ivec2 pixel = ivec2(k % args.width, args.band_row + k / args.width);
   uint i = index_of(args, pixel);
   PixelSurfaceRecord surface = args.surfaces.at[i];
@@ -57,9 +57,13 @@ void main() {
   at.inverse_tolerance = inverse_plane_tolerance(camera, at.lobe.position_ws);
   at.own = fetch_ray(args, pixel);
   find_lobe(at);
-  vec4 light = surface.coat_shares.coat * reuse_rays(args, pixel, at, args.sample_index, args.rows);
+  float share = surface.coat_shares.coat;
+  ReflectedRays found = reuse_rays(args, pixel, at, args.sample_index, args.rows);
+  vec4 light = share * light_by_rays(found.light);
   if (args.has_sky != 0u && light.w > 0.0f) light += vec4(args.sky.at[k], 0.0f);
   args.light.at[k] = light;
-  if (args.finds_distances == 0u) return;
-  args.inverse_distances.at[k] = seen_inverse_distance(args, pixel, args.sample_index, args.rows);
+  if (args.finds_guides == 0u) return;
+  args.guides.at[k] =
+      CoatGuide(share * found.excess,
+                seen_inverse_distance(args, pixel, args.sample_index, args.rows));
 }
