@@ -29,9 +29,9 @@ constexpr std::uint64_t kReferenceBytes = 18 * 3 * sizeof(double) + 11 * kLayerB
 // Data of a pixel's samples for filters, and memory of the filters themselves. Glass and clearcoats
 // need more; whether a scene has them is not known here.
 constexpr std::uint64_t kGlassBytes = 14 * kLayerBytes + 9 * sizeof(float);
-constexpr std::uint64_t kClearcoatBytes = 4 * kLayerBytes + 2 * sizeof(float);
+constexpr std::uint64_t kClearcoatBytes = 5 * kLayerBytes + 2 * sizeof(float);
 constexpr std::uint64_t kFilterBytes =
-    17 * kLayerBytes + 7 * sizeof(float) + 124 + kGlassBytes + kClearcoatBytes;
+    20 * kLayerBytes + 9 * sizeof(float) + 128 + kGlassBytes + kClearcoatBytes;
 // Light that is averaged over frames, of the frame before and of this one, and its motion.
 constexpr std::uint64_t kHistoryBytes = 2 * (4 * kLayerBytes + 4 * sizeof(float)) + 20;
 // A pixel that is lit by reflective shadow maps: position, normal and depth, planes of the guide

@@ -75,8 +75,9 @@ struct DenoiseSettings {
   /// above 0 to 1024. Lower values preserve more faint detail, and more noise. Noise alone hardly
   /// ever exceeds the default of three standard deviations.
   float noise_tolerance = 3.0f;
-  /// With lobes: light is averaged over about this share of their width; above 0 to 16. With the
-  /// default, reflections look as if the surface were 2 % rougher.
+  /// With lobes: light is averaged over about this share of their width; 1/1024 to 16. Higher
+  /// values leave less noise and blur more: with the default, reflections look as if the surface
+  /// were 2 % rougher, with 1 as if it were 8 % rougher.
   float lobe_share = 0.5f;
 };
 

@@ -91,7 +91,7 @@ void keep_coats(const KeptBand& band, const GBuffer& surfaces, const CoatLight& 
       const vec3 albedo = filtered_coat_albedo(
           surface.reflectance, dot(surface.normal_ws, surfaces.to_viewer_ws[i]), light.w);
       const CoatGuide& guide = by_rays.guides[i];
-      coats.light[pixel] = (vec3(light) - guide.excess) / albedo;
+      coats.light[pixel] = without_excess(vec3(light), guide.excess) / albedo;
       coats.excess[pixel] = guide.excess / albedo;
       coats.albedo[pixel] = shown_weight(band.light.gbuffer, band.light.fog, i) * albedo;
       if (!coats.normals_ws.empty()) coats.normals_ws[pixel] = surface.normal_ws;
@@ -191,7 +191,7 @@ Band traced_rows(const FrameRequest& request) {
   const Band rows = rendered_rows(settings);
   if (!settings.denoise) return rows;
   int reach = std::max({denoise_reach({}), denoise_reach(emitter_denoising()),
-                        denoise_reach(geometric_denoising())});
+                        denoise_reach(geometric_denoising()), denoise_reach(excess_denoising())});
   if (filters_through(request)) reach += kReuse;  // for seen_inverse_distance()
   if (shows_rough_glass(request)) reach *= 2;     // its light is filtered twice
   const int first = std::max(0, rows.first_row - reach);

@@ -33,7 +33,7 @@ struct FilteredPixels {
   // The surfaces that are seen
   std::vector<glm::vec3> positions_ws, normals_ws, geometric_normals_ws;
   std::vector<float> depths;
-  // Light to be filtered, divided by the surfaces' albedo
+  // Light to be filtered, divided by the surfaces' albedo; the excess is that of gathered light
   std::vector<glm::vec3> gathered, excess, looked_up, emitters;
   std::vector<float> gathered_variance, emitter_variance;
   /// Hit::sample_weight where the pixel shows indirect light, else 0.
@@ -50,7 +50,8 @@ struct FilteredPixels {
   std::vector<float> highlight_alphas;
   std::vector<float> highlight_inverse_distances;  ///< See CoatGuide; valid where alphas are not 0.
   // Light once filtered
-  std::vector<glm::vec3> filtered_gathered, filtered_excess, filtered_emitters, filtered_highlights;
+  std::vector<glm::vec3> filtered_gathered, filtered_emitters, filtered_highlights;
+  std::vector<glm::vec3> filtered_excess;  ///< Of one kind of light after the other.
 
   SeenThrough through;  ///< Used in scenes with glass.
 

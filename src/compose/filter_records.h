@@ -55,7 +55,7 @@ struct KeepPixelsArguments {
   Vec3Array irradiance;        ///< Result of the lookups.
   Vec4Array fog;               ///< See fog_along(); read where kHasFog is set.
   Vec4Array coats;             ///< See CoatLight; read where kHasCoats is set.
-  CoatGuideArray coat_guides;  ///< Of CoatLight, as are those of clearcoats below.
+  CoatGuideArray coat_guides;  ///< See CoatLight; read where kHasCoats is set.
   FilteredPixelsArray pixels;
   vec3 camera_ws;
   vec3 camera_back;  ///< Unit; against the direction of view.
@@ -73,7 +73,7 @@ struct KeepClearcoatsArguments {
   LitPointArray points;        ///< With the clearcoats' normals.
   PixelSurfaceArray surfaces;  ///< With clearcoats in the place of coats.
   Vec4Array coats;             ///< See CoatLight; read where has_rays is 1.
-  CoatGuideArray guides;
+  CoatGuideArray guides;       ///< See CoatLight; read where has_rays is 1.
   FilteredPixelsArray pixels;
   uint first;  ///< First pixel of the band among the traced pixels.
   uint count;

@@ -100,7 +100,7 @@ struct FrameKernels {
   vulkan::Kernel add_filtered{device, shaders::add_filtered_comp(), "add filtered"};
 };
 
-/// Light that is filtered, of the traced rows: 388 bytes a pixel. See FilteredPixelsRecord.
+/// Light that is filtered, of the traced rows: 392 bytes a pixel. See FilteredPixelsRecord.
 struct FilteredBuffers {
   FilteredPixelsRecord record;
   vulkan::Buffer addresses;  ///< Holds `record`.

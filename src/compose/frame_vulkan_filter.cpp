@@ -109,10 +109,10 @@ void FramePassesVulkan::denoise_coats(const DenoiseViewOnDevice& view) {
     const FilteredPixelsRecord& r = memory_.filtered.record;
     DenoiseViewOnDevice of_lobes = view;
     of_lobes.lobes = r.coat_lobes;
-    const auto filter = [&](const DenoiseViewOnDevice& lobes, Vec3Array light, Vec3Array excess,
-                            Vec3Array filtered) {
-      memory_.denoiser.record(to, lobes, {light}, geometric_denoising(), filtered);
-      memory_.denoiser.record(to, lobes, {excess}, excess_denoising(), filtered, true);
+    const auto filter = [&](const DenoiseViewOnDevice& with_lobes, Vec3Array light,
+                            Vec3Array excess, Vec3Array filtered) {
+      memory_.denoiser.record(to, with_lobes, {light}, geometric_denoising(), filtered);
+      memory_.denoiser.record(to, with_lobes, {excess}, excess_denoising(), filtered, true);
     };
     filter(of_lobes, r.coats, r.coat_excess, r.filtered_coats);
     if (filters_clearcoats(*request_)) {

@@ -79,6 +79,12 @@ LAMBENT_FN vec3 filtered_coat_albedo(Reflectance surface, float n_dot_v, float c
   return coat_share * max(albedo, vec3(kLeastFilteredAlbedo));
 }
 
+/// The light of a coat that is filtered apart from its excess. Rounding may make the excess the
+/// larger of the two.
+LAMBENT_FN vec3 without_excess(vec3 light, vec3 excess) {
+  return max(light - excess, vec3(0.0f));
+}
+
 /// The albedo that the light of a coat behind glass is divided by before it is filtered. It
 /// includes the path's throughput to the pixel.
 LAMBENT_FN vec3 coat_albedo_behind(CoatPath path, Reflectance surface, float n_dot_v) {

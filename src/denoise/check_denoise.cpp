@@ -8,11 +8,14 @@ namespace lambent {
 namespace {
 
 constexpr float kMostSharpness = 1024.0f;  // also for noise tolerance: practically infinite
-constexpr float kMostLobeShare = 16.0f;    // of the widest lobe: all directions
+// With the least share coats stay as noisy as they are; with the most, light is averaged over all
+// directions even where lobes are as narrow as that of roughness 0.3.
+constexpr float kLeastLobeShare = 1.0f / 1024.0f, kMostLobeShare = 16.0f;
 
-// Excess is averaged over this share of lobes' width: specks grow six times as wide and hide in
-// the light around them. Twice that washes reflections out.
-constexpr float kExcessLobeShare = 3.0f;
+// Excess is averaged over this share of lobes' width, three times that of other light: specks hide
+// in the light around them. Twice that takes more noise off, and lights what should be dark beside
+// narrow reflections (docs/math.md, "Rare bright rays").
+constexpr float kExcessLobeShare = 1.5f;
 
 Expected<void> check_range(const char* name, bool fine, const char* range) {
   if (fine) return {};
@@ -33,8 +36,8 @@ Expected<void> check(const DenoiseSettings& s) {
       check_range("noise tolerance",
                   s.noise_tolerance > 0.0f && s.noise_tolerance <= kMostSharpness,
                   "above 0 to 1024"),
-      check_range("lobe share", s.lobe_share > 0.0f && s.lobe_share <= kMostLobeShare,
-                  "above 0 to 16")};
+      check_range("lobe share", s.lobe_share >= kLeastLobeShare && s.lobe_share <= kMostLobeShare,
+                  "1/1024 to 16")};
   for (const Expected<void>& fine : checks) {
     if (!fine) return fine;
   }

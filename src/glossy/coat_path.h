@@ -88,7 +88,7 @@ LAMBENT_FN float inverse_seen_distance(float distance) {
 
 /// What the filter is told of the light that a pixel's coat reflects from rays.
 struct CoatGuide {
-  vec3 excess;             ///< Part of the light, see kBrightestCoatRay [W/(m^2 sr)].
+  vec3 excess;             ///< Part of the light, see kMaxShareOfOthers [W/(m^2 sr)].
   float inverse_distance;  ///< One over the distance to what the coat reflects [1/m].
 };
 LAMBENT_DEVICE_ARRAY(CoatGuideArray, CoatGuide, 4)

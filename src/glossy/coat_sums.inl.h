@@ -43,17 +43,24 @@ struct CoatReceiver {
 
 /// Weighted sums over rays.
 struct CoatSums {
-  Real3 light;      ///< Reflected light, without what direct light samples, too.
-  Real3 emission;   ///< Reflected light that direct light samples, too; see CoatRay::apart.
-  Real weight;      ///< Sum of the rays' weights.
-  Real schlick;     ///< Sum of the weights times Schlick's (1 - v_dot_h)^5 of each ray.
-  Real own_weight;  ///< Weight of the pixel's own ray.
-  Real pixels;      ///< Sum of the weights of the pixels whose rays were taken.
-  Real fitting;     ///< Part of `pixels` whose lobes match the receiver's.
-  Real3 brightest;  ///< The part of `light` from the ray that brought the most.
+  Real3 light;            ///< Reflected light, without what direct light samples, too.
+  Real3 emission;         ///< Reflected light that direct light samples, too; see CoatRay::apart.
+  Real weight;            ///< Sum of the rays' weights.
+  Real schlick;           ///< Sum of the weights times Schlick's (1 - v_dot_h)^5 of each ray.
+  Real own_weight;        ///< Weight of the pixel's own ray.
+  Real pixels;            ///< Sum of the weights of the pixels whose rays were taken.
+  Real fitting;           ///< Part of `pixels` whose lobes match the receiver's.
+  Real3 brightest;        ///< The part of `light` from the ray that brought the most.
+  Real brightest_weight;  ///< Its part of `weight`.
 };
 
-LAMBENT_REAL_FN Real level_of(Real3 light) {
+/// Sums over no ray.
+LAMBENT_REAL_FN CoatSums no_coat_sums() {
+  CoatSums none = {Real3(0.0f), Real3(0.0f), 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, Real3(0.0f), 0.0f};
+  return none;
+}
+
+LAMBENT_REAL_FN Real luminance_of(Real3 light) {
   return light.x * kRedLuminance + light.y * kGreenLuminance + light.z * kBlueLuminance;
 }
 
@@ -94,7 +101,9 @@ LAMBENT_REAL_FN void add_light_of_ray(CoatReceiver at, LobeValue lobe, Real3 dir
   Real3 reflected = schlick_reflectance(at.reflectance.f0, at.reflectance.f90, power) * above;
   Real3 light = reflected * ray.radiance;
   sums.light += light;
-  sums.brightest = select(level_of(light) > level_of(sums.brightest), light, sums.brightest);
+  Real gain = luminance_of(light) - luminance_of(sums.brightest);
+  sums.brightest = select(gain > 0.0f, light, sums.brightest);
+  sums.brightest_weight = select(gain > 0.0f, weight, sums.brightest_weight);
   sums.emission += reflected * (ray.apart * found_light_weight(lobe.pdf, ray.apart_density));
 }
 

@@ -60,9 +60,10 @@ const float kLeastPixelWeight = 1e-12f;
 /// where a coat reflects one part in 1e8.
 const float kLeastReflected = 1e-20f;
 
-/// Most that a single ray brings, as a share of what all others around a pixel bring together. What
-/// it brings above that is excess: so rare that the rays around cannot tell where such light ends.
-const float kBrightestCoatRay = 0.5f;
+/// Most that a single ray brings, as a share of what all others bring together of light that direct
+/// light does not sample. What it brings above that is excess: so rare that the rays around cannot
+/// tell where such light ends.
+const float kMaxShareOfOthers = 0.5f;
 
 /// Neighbours this far from a pixel's plane have no weight [pixel widths at its depth]: the surface
 /// of a sphere that covers few pixels curves away as much from its tangent plane within the reach.
@@ -120,12 +121,6 @@ LAMBENT_FN bool all_zero(float x) {
 #undef Real
 #undef Real3
 #undef LAMBENT_REAL_FN
-
-/// Sums over no ray.
-LAMBENT_FN CoatSums no_coat_sums() {
-  CoatSums none = {vec3(0.0f), vec3(0.0f), 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, vec3(0.0f)};
-  return none;
-}
 
 /// The lobe of a coat of this GGX width.
 LAMBENT_FN CoatLobe make_coat_lobe(vec3 position_ws, vec3 geometric_normal_ws, vec3 normal_ws,
@@ -237,13 +232,17 @@ LAMBENT_FN vec3 reflected_own_ray(CoatReceiver at) {
 /// Radiance that a receiver reflects of the rays around it.
 struct ReflectedRays {
   vec3 light;   ///< All of it; negative where there is no ray.
-  vec3 excess;  ///< The part of it that is excess, see kBrightestCoatRay.
+  vec3 excess;  ///< The part of it that is excess, see kMaxShareOfOthers.
 };
 
-/// The part of the brightest ray's light that is excess.
+/// The part of the brightest ray's light that is excess. A ray may always bring its share of the
+/// weights: the rays of pixels whose lobes fit no neighbour's have most of them.
 LAMBENT_FN vec3 excess_of(CoatSums sums) {
   float brought = luminance(sums.brightest);
-  float most = kBrightestCoatRay * max(luminance(sums.light) - brought, 0.0f);
+  float others = max(luminance(sums.light) - brought, 0.0f);
+  float weight_of_others = sums.weight - sums.brightest_weight;
+  if (weight_of_others <= 0.0f) return vec3(0.0f);
+  float most = max(kMaxShareOfOthers, sums.brightest_weight / weight_of_others) * others;
   return brought > most ? sums.brightest * (1.0f - most / brought) : vec3(0.0f);
 }
 

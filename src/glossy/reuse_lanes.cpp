@@ -107,6 +107,7 @@ HWY_INLINE void store_sums(const CoatSums& from, const SumPlanes& sums) {
   sums.put(kSumPixels, from.pixels);
   sums.put(kSumFitting, from.fitting);
   sums.put(kSumBrightest, from.brightest);
+  sums.put(kSumBrightestWeight, from.brightest_weight);
 }
 
 }  // namespace
@@ -114,14 +115,13 @@ HWY_INLINE void store_sums(const CoatSums& from, const SumPlanes& sums) {
 void reuse_in_lanes(const ReuseRow& row, RowPlanes& sums) {
   const auto lanes = static_cast<int>(hn::Lanes(Lanes::D()));
   const std::size_t pitch = row.coats.pitch();
-  const Lanes3 none(0.0f);
   for (int x = 0; x < row.width; x += lanes) {
     const Planes own{row.coats.at(row.row, 0) + x, pitch};
     const Planes more{row.receivers.at(row.receiver_row, 0) + x, pitch};
     const Lanes receives = more.at(kReceives);
     if (all_zero(receives)) continue;
     const CoatReceiver at = receiver_at(own, more);
-    CoatSums found{none, none, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, none};
+    CoatSums found = no_coat_sums();
     for (const NeighbourRow& neighbours : row.around) {
       for (int dx = -kReuse; dx <= kReuse; ++dx) {
         if (neighbours.own && dx == 0) continue;

@@ -52,7 +52,8 @@ enum SumPlane : int {
   kSumPixels = 9,
   kSumFitting = 10,
   kSumBrightest = 11,
-  kSumPlanes = 14
+  kSumBrightestWeight = 14,
+  kSumPlanes = 15
 };
 
 /// Rows of planes. Each row is padded with zeros, which mean no ray, as lanes and neighbours reach

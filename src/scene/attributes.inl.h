@@ -86,18 +86,32 @@ LAMBENT_FN float blended_level(SceneRef scene, TextureViewRef view, CornerUvs uv
                        cone_share.of_triangle);
 }
 
+/// Where and how a texture is read.
+struct TextureRead {
+  vec2 uv;
+  float level;   ///< MIP level; an integer where `nearest` is set.
+  bool nearest;  ///< The nearest texel is enough.
+};
+
+LAMBENT_FN TextureRead texture_read(SceneRef scene, MeshRef mesh, TextureViewRef view,
+                                    TrianglePointRef p, ConeShare cone_share) {
+  CornerUvs uvs = corner_uvs(mesh, view, p);
+  TextureRead read = {interpolate(uvs.a, uvs.b, uvs.c, p.weights), 0.0f, false};
+  if (uvs.present && cone_share.of_triangle > 0.0f) {
+    read.nearest = cone_share.blended == 0u;
+    read.level = read.nearest ? float(mip_level(scene, view, uvs, cone_share))
+                              : blended_level(scene, view, uvs, cone_share);
+  }
+  return read;
+}
+
 /// A texture of a mesh at a point; white where the view is empty.
 LAMBENT_FN vec4 texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view, TrianglePointRef p,
                            ConeShare cone_share) {
   if (view.texture < 0) return vec4(1.0f);
-  CornerUvs uvs = corner_uvs(mesh, view, p);
-  vec2 uv = interpolate(uvs.a, uvs.b, uvs.c, p.weights);
-  bool cone = uvs.present && cone_share.of_triangle > 0.0f;
-  if (cone && cone_share.blended == 0u) {
-    return nearest_texel(scene, view, uv, mip_level(scene, view, uvs, cone_share));
-  }
-  float level = cone ? blended_level(scene, view, uvs, cone_share) : 0.0f;
-  return sample_texture(scene, view, uv, level);
+  TextureRead read = texture_read(scene, mesh, view, p, cone_share);
+  if (read.nearest) return nearest_texel(scene, view, read.uv, int(read.level));
+  return sample_texture(scene, view, read.uv, read.level);
 }
 
 /// A texture of a mesh at a point, filtered with weights of full precision. Devices may filter with
@@ -106,14 +120,9 @@ LAMBENT_FN vec4 texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view, Tr
 LAMBENT_FN vec4 precise_texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view,
                                    TrianglePointRef p, ConeShare cone_share) {
   if (view.texture < 0) return vec4(1.0f);
-  CornerUvs uvs = corner_uvs(mesh, view, p);
-  vec2 uv = interpolate(uvs.a, uvs.b, uvs.c, p.weights);
-  bool cone = uvs.present && cone_share.of_triangle > 0.0f;
-  if (cone && cone_share.blended == 0u) {
-    return nearest_texel(scene, view, uv, mip_level(scene, view, uvs, cone_share));
-  }
-  float level = cone ? blended_level(scene, view, uvs, cone_share) : 0.0f;
-  return blended_texel(scene, view, uv, level);
+  TextureRead read = texture_read(scene, mesh, view, p, cone_share);
+  if (read.nearest) return nearest_texel(scene, view, read.uv, int(read.level));
+  return blended_texel(scene, view, read.uv, read.level);
 }
 
 /// Whether a footprint covers so much of a texture that the result is nearly the texture's mean;

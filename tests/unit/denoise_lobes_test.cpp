@@ -123,7 +123,7 @@ TEST(DenoiseLobes, SpreadsExcessBeyondTheLobe) {
   const Coat coat(200, 160, 0.02f);
   const double of_light = reach_of(coat).sideways;
   const double of_excess = reach_of(coat, excess_denoising()).sideways;
-  EXPECT_NEAR(of_excess / of_light, 6.0, 1.0);
+  EXPECT_NEAR(of_excess / of_light, 3.0, 0.3);
   Coat bright = coat;
   bright.light[bright.at(100, 80)] = vec3(1.0f);
   double sum = 0.0;

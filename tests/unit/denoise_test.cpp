@@ -280,7 +280,7 @@ TEST(Denoise, RefusesWhatIsOutOfRange) {
   EXPECT_EQ(refused([](DenoiseSettings& s) { s.normal_sharpness = -1.0f; }), "normal sharpness");
   EXPECT_EQ(refused([](DenoiseSettings& s) { s.plane_tolerance = 0.0f; }), "plane tolerance");
   EXPECT_EQ(refused([](DenoiseSettings& s) { s.noise_tolerance = NAN; }), "noise tolerance");
-  EXPECT_EQ(refused([](DenoiseSettings& s) { s.lobe_share = 0.0f; }), "lobe share");
+  EXPECT_EQ(refused([](DenoiseSettings& s) { s.lobe_share = 1e-30f; }), "lobe share");
   EXPECT_EQ(refused([](DenoiseSettings& s) { s.lobe_share = 17.0f; }), "lobe share");
 
   const Wall wall(8, 8);

@@ -11,6 +11,7 @@
 #include "lambent/renderer.h"
 #include "support/box_behind_a_pane.h"
 #include "support/field_scenes.h"
+#include "support/hand_made.h"
 
 namespace lambent::filtered_frame_test {
 namespace {
@@ -144,6 +145,50 @@ void expect_less_noise_in_reflections(const LitStage& box) {
       compare_images(*smooth.find("glossy"), *one.find("glossy"), {.block = 8, .perceptual = false})
           .value();
   EXPECT_NEAR(mean.mean_ratio, 1.0, 0.005);
+}
+
+/// A polished floor under lamps that hang close below sheets of metal: a sample of a lamp, of those
+/// that a sheet takes, is bright where it falls into the sheet's lobe.
+Scene lamps_close_to_metal() {
+  constexpr float kHeight = 2.6f, kGap = 0.005f;
+  Scene scene;
+  Material floor;
+  floor.base_color = glm::vec4(0.35f, 0.35f, 0.35f, 1.0f);
+  floor.metallic = 0.0f;
+  floor.roughness = 0.3f;
+  Material metal = floor;
+  metal.base_color = glm::vec4(0.75f, 0.75f, 0.75f, 1.0f);
+  metal.metallic = 1.0f;
+  metal.roughness = 0.35f;
+  scene.materials = {floor, metal, test::lambert(vec3(0.0f), vec3(60.0f))};
+  test::add(scene, test::quad({-4, 0, -6}, {0, 0, 12}, {8, 0, 0}, 0));
+  for (const float x : {-1.5f, 1.5f}) {
+    test::add(scene, test::quad({x - 0.1f, kHeight, -1.0f}, {0.2f, 0, 0}, {0, 0, 2.0f}, 1));
+    test::add(scene,
+              test::quad({x - 0.015f, kHeight - kGap, -0.9f}, {0.03f, 0, 0}, {0, 0, 1.8f}, 2));
+  }
+  Camera camera;
+  camera.world_from_view =
+      glm::inverse(glm::lookAt(vec3(0, 1.5f, 3.5f), vec3(0, 0, 1.0f), vec3(0, 1, 0)));
+  scene.cameras = {camera};
+  return scene;
+}
+
+TEST(FilteredFrame, SpreadsWhatSingleRaysOfCoatsBring) {
+  const LitStage floor(lamps_close_to_metal());
+  FrameSettings filtered = of_quality(Quality::high);
+  filtered.gather_rays = 0;
+  FrameSettings raw = filtered, again = filtered;
+  raw.denoise = false;
+  raw.samples = 64;
+  again.seed = 7;
+  const LayeredImage smooth = floor.picture(filtered), truth = floor.picture(raw);
+  const auto seen_difference = [&](const LayeredImage& from) {
+    return compare_images(*smooth.find("glossy"), *from.find("glossy"), {}).value().flip;
+  };
+  // Were these rays filtered like all others: 0.094 and 0.074
+  EXPECT_LT(seen_difference(truth), 0.08);
+  EXPECT_LT(seen_difference(floor.picture(again)), 0.06);
 }
 
 TEST(FilteredFrame, ShowsRoughCoatsWithLessNoiseAndAllOfTheirLight) {

@@ -34,6 +34,8 @@ TEST(CoatSums, OfTheSmallestWeightsAreNumbers) {
 TEST(CoatSums, ExcessIsWhatOneRayBringsAboveHalfOfAllOthers) {
   CoatSums sums = no_coat_sums();
   EXPECT_EQ(excess_of(sums), vec3(0.0f));
+  sums.weight = 16.0f;
+  sums.brightest_weight = 1.0f;
   sums.light = vec3(3.0f, 6.0f, 1.5f);
   sums.brightest = sums.light / 3.0f;  // half of what the others bring
   EXPECT_NEAR(excess_of(sums).y, 0.0f, 1e-6f);
@@ -43,6 +45,18 @@ TEST(CoatSums, ExcessIsWhatOneRayBringsAboveHalfOfAllOthers) {
   }
   sums.brightest = sums.light;  // no other brings any
   EXPECT_EQ(excess_of(sums), sums.light);
+}
+
+// Where no other lobe fits, nearly all of the light is the own ray's, however even it is.
+TEST(CoatSums, HaveNoExcessWhereARayBringsItsShareOfTheWeights) {
+  CoatSums sums = no_coat_sums();
+  sums.light = vec3(8.0f);
+  sums.weight = 4.0f;
+  for (const float weight : {0.1f, 1.0f, 3.0f, 3.9f, 4.0f}) {
+    sums.brightest_weight = weight;
+    sums.brightest = sums.light * (weight / sums.weight);
+    EXPECT_NEAR(excess_of(sums).x, 0.0f, 1e-5f) << weight;
+  }
 }
 
 TEST(CoatDirection, IsADirectionForARoughnessThatRoundingLiftsAboveOne) {

@@ -89,11 +89,11 @@ class RayReuseTest : public testing::Test {
   }
 
   /// Light and share of a pixel, and the excess of its light.
-  struct Expected {
+  struct Reflected {
     vec4 light;
     vec3 excess;
   };
-  Expected expected(const GlossySettings& settings, const ivec2& pixel) const {
+  Reflected expected(const GlossySettings& settings, const ivec2& pixel) const {
     const std::size_t i = place_of(pixel);
     const GBuffer& pixels = picture.pixels;
     const float share = pixels.coat_shares[i].coat;
@@ -139,7 +139,7 @@ TEST_F(RayReuseTest, SumsUpInLanesWhatOnePixelAfterTheOtherDoes) {
       for (int y = 0; y < kHeight; ++y) {
         for (int x = 0; x < kWidth; ++x) {
           const std::size_t i = place_of({x, y});
-          const Expected should = expected(settings, {x, y});
+          const Reflected should = expected(settings, {x, y});
           // Lobes of mirrors turn the rounding of half vectors into that of light
           for (int c = 0; c < 4; ++c) {
             EXPECT_NEAR(light.light[i][c], should.light[c],
@@ -157,6 +157,14 @@ TEST_F(RayReuseTest, SumsUpInLanesWhatOnePixelAfterTheOtherDoes) {
       }
       EXPECT_GT(reflecting, kWidth * kHeight / 2);
       EXPECT_GT(exceeding, kWidth * kHeight / 20);
+      // Without a filter nothing is told apart
+      FrameSettings raw = frame;
+      raw.denoise = false;
+      CoatLight unfiltered;
+      RayReuse().reflect({world, nullptr, raw, settings.camera, sample}, {&all, 1}, all,
+                         picture.rays, unfiltered);
+      EXPECT_EQ(unfiltered.light, light.light);
+      EXPECT_TRUE(unfiltered.guides.empty());
     }
   }
 }
