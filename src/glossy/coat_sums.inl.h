@@ -8,6 +8,7 @@
 //   LAMBENT_REAL_FN  before a function
 //   Real select(condition, Real yes, Real no), and for Real3: see lang.h
 //   condition left_scene(Real distance)   see coat_path.h
+//   Real luminance(Real3)
 //   bool all_zero(Real)                   whether further computations can be skipped
 // and microfacet.inl.h, mis_weights.inl.h and relit_blur.inl.h for these numbers.
 
@@ -60,10 +61,6 @@ LAMBENT_REAL_FN CoatSums no_coat_sums() {
   return none;
 }
 
-LAMBENT_REAL_FN Real luminance_of(Real3 light) {
-  return light.x * kRedLuminance + light.y * kGreenLuminance + light.z * kBlueLuminance;
-}
-
 /// Walter et al. 2007, Eq. 33, as a function of the half vector. Exact for the narrowest lobes,
 /// too, for which the cosine alone rounds to 1.
 LAMBENT_REAL_FN Real ggx_density(Real3 normal, Real3 h, Real squared_alpha) {
@@ -101,7 +98,7 @@ LAMBENT_REAL_FN void add_light_of_ray(CoatReceiver at, LobeValue lobe, Real3 dir
   Real3 reflected = schlick_reflectance(at.reflectance.f0, at.reflectance.f90, power) * above;
   Real3 light = reflected * ray.radiance;
   sums.light += light;
-  Real gain = luminance_of(light) - luminance_of(sums.brightest);
+  Real gain = luminance(light) - luminance(sums.brightest);
   sums.brightest = select(gain > 0.0f, light, sums.brightest);
   sums.brightest_weight = select(gain > 0.0f, weight, sums.brightest_weight);
   sums.emission += reflected * (ray.apart * found_light_weight(lobe.pdf, ray.apart_density));

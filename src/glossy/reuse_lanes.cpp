@@ -37,6 +37,10 @@ HWY_INLINE Lanes::Mask left_scene(Lanes distance) {
   return distance == infinity();
 }
 
+HWY_INLINE Lanes luminance(Lanes3 light) {
+  return light.x * kRedLuminance + light.y * kGreenLuminance + light.z * kBlueLuminance;
+}
+
 #define Real Lanes
 #define Real3 Lanes3
 #define LAMBENT_REAL_FN HWY_INLINE
