@@ -2,6 +2,7 @@
 #include "compose/light_history.h"
 
 #include "compose/frame_tasks.h"
+#include "compose/motion.h"
 #include "core/parallel.h"
 #include "denoise/history_math.h"
 #include "raytracing/camera_rays.h"
@@ -23,11 +24,6 @@ struct FrameOfHistory {
 
   const LightHistory& history;
 };
-
-/// Width of a pixel at a depth [m].
-float width_of_pixel(const CameraRecord& camera, float depth) {
-  return camera.half_view / camera.half_size.y * (camera.orthographic != 0u ? 1.0f : depth);
-}
 
 /// Weighted mean of a value over the taps.
 template <class T>
@@ -52,6 +48,7 @@ void average_variance(const std::vector<float>& before, const HistoryTaps& taps,
 }
 
 void shape(const FilteredPixels& pixels, LightHistory& history) {
+  history.positions_ws = pixels.positions_ws;
   history.normals_ws = pixels.geometric_normals_ws;
   history.depths = pixels.depths;
   history.differences.resize(pixels.gathered.size());
@@ -70,6 +67,37 @@ bool has_same_light(const LightHistory& last, const FilteredPixels& pixels) {
          last.emitters.size() == pixels.emitters.size() &&
          last.gathered_variance.size() == pixels.gathered_variance.size() &&
          last.emitter_variance.size() == pixels.emitter_variance.size();
+}
+
+/// Averages the light that coats and clearcoats reflect, and the highlights of emitters.
+void average_reflections(const FrameRequest& request, std::span<const PixelMotion> motion,
+                         const LightHistory& last, bool continues, FilteredPixels& pixels,
+                         LightHistory& next) {
+  const FrameSettings& settings = request.settings;
+  const FrameAveraging by{
+      {settings.width, settings.height},
+      motion_views(request.camera, settings.width, settings.height, request.before),
+      static_cast<float>(settings.averaged_frames)};
+  const SurfacesSeen now{pixels.positions_ws, pixels.geometric_normals_ws, pixels.depths};
+  SurfacesSeen before;
+  if (continues) before = {last.positions_ws, last.normals_ws, last.depths};
+  FilteredCoats &coats = pixels.coats, &clearcoats = pixels.clearcoats;
+  average_lobes(by, motion, now, before, last.coats,
+                {pixels.normals_ws, pixels.to_viewer_ws, coats.alphas, coats.inverse_distances,
+                 coats.light, coats.excess},
+                next.coats);
+  average_lobes(by, motion, now, before, last.clearcoats,
+                {clearcoats.normals_ws, pixels.to_viewer_ws, clearcoats.alphas,
+                 clearcoats.inverse_distances, clearcoats.light, clearcoats.excess},
+                next.clearcoats);
+  average_lobes(by, motion, now, before, last.highlights,
+                {pixels.normals_ws,
+                 pixels.to_viewer_ws,
+                 pixels.highlight_alphas,
+                 pixels.highlight_inverse_distances,
+                 pixels.highlights,
+                 {}},
+                next.highlights);
 }
 
 }  // namespace
@@ -96,7 +124,7 @@ void average_light(const FrameRequest& request, std::span<const PixelMotion> mot
         const float depth = motion[i].depth_before;
         taps = before.history_taps(
             size, place + motion[i].offset, depth,
-            depth_tolerance(depth, width_of_pixel(camera, depth), dot(normal_ws, to_viewer)),
+            depth_tolerance(depth, pixel_width_at_depth(camera, depth), dot(normal_ws, to_viewer)),
             normal_ws);
       }
       const bool seen_before = is_history(taps);
@@ -124,6 +152,7 @@ void average_light(const FrameRequest& request, std::span<const PixelMotion> mot
       }
     }
   });
+  average_reflections(request, motion, last, continues, pixels, next);
   next.is_there = true;
 }
 

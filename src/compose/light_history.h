@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compose/filter_frame.h"
+#include "compose/glossy/coat_history.h"
 #include "raytracing/motion/motion_math.h"
 
 namespace lambent {
@@ -16,17 +17,20 @@ namespace lambent {
 /// Memory is reused.
 struct LightHistory {
   bool is_there = false;
+  std::vector<glm::vec3> positions_ws;
   std::vector<glm::vec3> normals_ws;  ///< Geometric normals.
   std::vector<float> depths;
   std::vector<glm::vec3> differences;  ///< Gathered less looked-up light, averaged.
   std::vector<glm::vec3> excess, emitters;
   std::vector<float> gathered_variance, emitter_variance;
-  std::vector<float> frames;  ///< Number of frames in a pixel's average.
+  std::vector<float> frames;  ///< Number of frames in a pixel's average, lobes' light apart.
+  LobeHistory coats, clearcoats, highlights;
 };
 
 /// Averages the light that is to be filtered with that of previous frames, where the same surface
-/// was seen, and stores the average for the next frame. `last` is read where it is valid and
-/// request.light_continues; `next` is written.
+/// was seen, or lobes showed the same part of the scene. Light through glass is left alone. Stores
+/// the average for the next frame. `last` is read where it is valid and request.light_continues;
+/// `next` is written.
 void average_light(const FrameRequest& request, std::span<const PixelMotion> motion,
                    const LightHistory& last, FilteredPixels& pixels, LightHistory& next);
 

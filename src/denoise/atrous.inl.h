@@ -17,6 +17,8 @@
 //   Real fetch_lobe(int plane, int x, int y)    the same for LobeGuide; used where there are lobes
 // In C++ it is included in the body of a struct that has these as members.
 
+#include "denoise/lobe_weight.inl.h"
+
 /// A pixel's position and normal.
 struct AtrousGuide {
   Real3 position_ws;
@@ -71,13 +73,6 @@ LAMBENT_REAL_FN Real filtered_luminance(AtrousPass by, AtrousLight of) {
   return rest.x * kRedLuminance + rest.y * kGreenLuminance + rest.z * kBlueLuminance;
 }
 
-/// exp(-x) for x >= 0, within a few hundredths; exactly 0 from 4 on.
-LAMBENT_REAL_FN Real falloff(Real x) {
-  Real root = max(1.0f - 0.25f * x, 0.0f);
-  Real square = root * root;
-  return square * square;
-}
-
 /// Exponent of a neighbour's weight by its surface alone, without regard to its light.
 LAMBENT_REAL_FN Real difference_of_surfaces(AtrousPass by, AtrousGuide here, Real plane_scale,
                                             AtrousGuide there, Real cosine) {
@@ -85,37 +80,12 @@ LAMBENT_REAL_FN Real difference_of_surfaces(AtrousPass by, AtrousGuide here, Rea
   return by.normal_sharpness * (1.0f - cosine) + off_plane * off_plane;
 }
 
-/// The lobe that reflects a pixel's light; for the members see LobeGuide. Undefined in passes
-/// without lobes.
-struct AtrousLobe {
-  Real3 mirror_ws;
-  Real sharpness;
-  Real inverse_distance;
-};
-
-LAMBENT_REAL_FN AtrousLobe lobe_at(int x, int y) {
-  AtrousLobe lobe;
+LAMBENT_REAL_FN PixelLobe lobe_at(int x, int y) {
+  PixelLobe lobe;
   lobe.mirror_ws = lobe_vector(kMirrorPlane, x, y);
   lobe.sharpness = fetch_lobe(kLobeSharpnessPlane, x, y);
   lobe.inverse_distance = fetch_lobe(kInverseHitDistancePlane, x, y);
   return lobe;
-}
-
-/// Exponent of a neighbour's weight by what its lobe shows. A point that one pixel's lobe shows
-/// lies, as seen from the other pixel, in another direction than the one in which that pixel's lobe
-/// points. The smaller of the two distances and the sharper of the two lobes count, so that the
-/// weight is the same in both directions. Lobes of different widths show different parts of the
-/// scene.
-LAMBENT_REAL_FN Real difference_of_lobes(AtrousPass by, AtrousLobe here, AtrousLobe there,
-                                         Real3 to_neighbour, Real3 across_ws) {
-  Real3 apart = to_neighbour * larger(here.inverse_distance, there.inverse_distance) +
-                (there.mirror_ws - here.mirror_ws);
-  Real sideways = dot(apart, across_ws);
-  Real widths =
-      (here.sharpness - there.sharpness) / (here.sharpness + there.sharpness + kLeastLobeSharpness);
-  Real sharpness = larger(here.sharpness, there.sharpness) * by.lobe_scale;
-  return (dot(apart, apart) + sideways * sideways) * sharpness +
-         kWidthSharpness * (widths * widths);
 }
 
 /// The variance that the difference of two pixels' luminance is compared with. The variance of the
@@ -157,7 +127,7 @@ LAMBENT_REAL_FN AtrousLight filtered_pixel(AtrousPass by) {
   if (by.has_levels != 0u) {
     inverse_level = 1.0f / max(fetch_guide(kLevelPlane, 0, 0), kLeastFilteredLevel);
   }
-  AtrousLobe lobe;
+  PixelLobe lobe;
   Real3 across_ws = here.normal_ws;
   if (by.has_lobes != 0u) {
     lobe = lobe_at(0, 0);
@@ -179,7 +149,7 @@ LAMBENT_REAL_FN AtrousLight filtered_pixel(AtrousPass by) {
     Real cosine = dot(here.normal_ws, there.normal_ws);
     Real difference = difference_of_surfaces(by, here, plane_scale, there, cosine);
     if (by.has_lobes != 0u) {
-      difference += difference_of_lobes(by, lobe, lobe_at(x * by.apart, y * by.apart),
+      difference += difference_of_lobes(by.lobe_scale, lobe, lobe_at(x * by.apart, y * by.apart),
                                         there.position_ws - here.position_ws, across_ws);
     }
     if (by.geometric == 0u) {

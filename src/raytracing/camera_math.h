@@ -90,10 +90,15 @@ LAMBENT_FN float view_depth(CameraRecord camera, vec3 position_ws) {
   return -dot(position_ws - camera.position_ws, normalize(camera.axes[2]));
 }
 
+/// Width of a pixel at a depth [m].
+LAMBENT_FN float pixel_width_at_depth(CameraRecord camera, float depth) {
+  float at_unit = camera.half_view / camera.half_size.y;
+  return camera.orthographic != 0u ? at_unit : at_unit * depth;
+}
+
 /// Width of a pixel at a point that the camera sees [m].
 LAMBENT_FN float pixel_width(CameraRecord camera, vec3 position_ws) {
-  float at_unit = camera.half_view / camera.half_size.y;
-  return camera.orthographic != 0u ? at_unit : at_unit * view_depth(camera, position_ws);
+  return pixel_width_at_depth(camera, view_depth(camera, position_ws));
 }
 
 LAMBENT_END
