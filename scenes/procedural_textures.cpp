@@ -110,7 +110,8 @@ TextureSet bake(const std::string& name, int size, float metres_a_tile, const Pa
       put(set.normal, static_cast<std::size_t>(y) * size + x, 0.5f * n + 0.5f);
     }
   }
-  for (Texture* texture : {&set.color, &set.normal, &set.roughness}) build_mips(*texture);
+  for (Texture* texture : {&set.color, &set.roughness}) build_mips(*texture);
+  build_normal_mips(set.normal);
   return set;
 }
 

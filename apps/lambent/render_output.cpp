@@ -99,7 +99,7 @@ Expected<void> PictureFile::write(const LayeredImage& rows) {
       kept_ = Image(size_.x, 0, picture.channels);
       kept_.pixels.reserve(pixels_of(size_) * static_cast<std::size_t>(picture.channels));
     }
-    luminances_.add(picture, rows.find("albedo"));
+    luminances_.add(rows);
     kept_.height += picture.height;
     kept_.pixels.insert(kept_.pixels.end(), picture.pixels.begin(), picture.pixels.end());
     return {};

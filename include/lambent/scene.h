@@ -33,6 +33,11 @@ struct Texture {
 
 /// Fills `texture.levels` below the first by box-filtering in linear light.
 void build_mips(Texture& texture);
+/// The same for a normal map, whose texels are not sRGB-encoded and whose alpha it overwrites: with
+/// 1 at the first level, and below with 1 minus how far most of a texel's normals scatter. Where
+/// normals are averaged, coats are rougher by no more than that: flat tiles stay flat between steep
+/// joints. Normal maps with other MIPs, whose alpha is 1, make coats no rougher.
+void build_normal_mips(Texture& texture);
 
 /// How a texture continues beyond its edges.
 enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
@@ -92,7 +97,7 @@ struct Material {
 
   TextureView base_color_texture;           ///< RGBA, sRGB.
   TextureView metallic_roughness_texture;   ///< G roughness, B metallic.
-  TextureView normal_texture;               ///< Tangent space, +Y up.
+  TextureView normal_texture;               ///< Tangent space, +Y up; see build_normal_mips().
   TextureView emission_texture;             ///< RGB, sRGB.
   TextureView specular_texture;             ///< A strength.
   TextureView specular_color_texture;       ///< RGB, sRGB.

@@ -305,7 +305,7 @@ class FramePassesCpu final : public FramePasses {
 
   void denoise(float share) override {
     if (averages(request().settings)) {
-      average_light(request(), motion_, history_, to_filter_, next_history_);
+      average_light(request(), history_, to_filter_, next_history_);
       std::swap(history_, next_history_);
       finish_pass("history");
     }

@@ -3,13 +3,10 @@
 // filtered.
 #pragma once
 
-#include <cstdint>
-#include <span>
 #include <vector>
 
 #include "compose/filter_frame.h"
-#include "compose/glossy/coat_history.h"
-#include "raytracing/motion/motion_math.h"
+#include "compose/glossy/lobe_history.h"
 
 namespace lambent {
 
@@ -31,7 +28,7 @@ struct LightHistory {
 /// was seen, or lobes showed the same part of the scene. Light through glass is left alone. Stores
 /// the average for the next frame. `last` is read where it is valid and request.light_continues;
 /// `next` is written.
-void average_light(const FrameRequest& request, std::span<const PixelMotion> motion,
-                   const LightHistory& last, FilteredPixels& pixels, LightHistory& next);
+void average_light(const FrameRequest& request, const LightHistory& last, FilteredPixels& pixels,
+                   LightHistory& next);
 
 }  // namespace lambent

@@ -5,7 +5,7 @@
 // The includer provides, besides atrous_pass.h,
 //   Real, Real3              float and vec3, or lanes of them with the same operators
 //   LAMBENT_REAL_FN          before a function
-//   Real larger(Real a, Real b)
+//   Real larger(Real a, Real b), Real max(Real, float), Real dot(Real3, Real3)
 // In C++ it is included in the body of a struct that has these as members.
 
 /// exp(-x) for x >= 0, within a few hundredths; exactly 0 from 4 on.

@@ -19,7 +19,7 @@ constexpr float kAspect = 16.0f / 9.0f;
 // Number of rays that look for emitters and sky at each point; samples of emitters at each point,
 // and at each hit of those rays.
 constexpr int kRaysPerPoint = 8;
-constexpr int kEmitterSamples = 8, kBounceSamples = 2;
+constexpr int kEmitterSamples = 16, kBounceSamples = 4;
 // Points are lit where they receive at least this share of the median of those that receive any
 // light: others are dark in comparison.
 constexpr float kLitShare = 1.0f / 32.0f;
@@ -47,8 +47,12 @@ float emitted_irradiance(const World& world, const LitPoint& point, int samples,
   const float share = 1.0f / static_cast<float>(samples);
   for (int i = 0; i < samples; ++i) {
     const float u = (static_cast<float>(i) + next_uniform(random)) * share;
-    const EmitterPick pick = emissive.pick(std::min(u, kLargestUniform));
-    const EmitterRecord& emitter = emissive.entries()[pick.emitter];
+    // From the tree of lights: a lamp nearby may be outshone by lamps in other rooms. Lights that
+    // are no triangles have larger numbers
+    const LightPick pick = lights_of(world).pick(point.position_ws, point.normal_ws, no_pick_lobe(),
+                                                 std::min(u, kLargestUniform));
+    if (pick.probability <= 0.0f || pick.light >= emissive.size()) continue;
+    const EmitterRecord& emitter = emissive.entries()[pick.light];
     const TrianglePointSeen seen =
         draw_on_triangle(emitter.corner_ws - point.position_ws, emitter.edge1_ws, emitter.edge2_ws,
                          next_uniform2(random));

@@ -24,30 +24,30 @@ LAMBENT_FN vec4 tangent_at(MeshRef mesh, TextureViewRef view, TrianglePointRef p
   return tangent_from_uvs(edge1, edge2, uvs.b - uvs.a, uvs.c - uvs.a);
 }
 
-/// The vector of a normal map, in tangent space. Where the footprint covers all of the map, it is
-/// the map's mean.
-LAMBENT_FN vec3 map_vector_at(SceneRef scene, MeshRef mesh, TextureViewRef view, float scale,
-                              TrianglePointRef p, ConeShare cone_share, bool mean_alone) {
-  vec4 texel = mean_alone
-                   ? fetch_texel(fetch_level(scene, view, level_count(scene, view) - 1), 0, 0)
-                   : precise_texture_at(scene, mesh, view, p, cone_share);
-  return map_vector(vec3(texel), scale);
+/// A texel of a normal map. Where the footprint covers all of the map, it is the map's mean.
+LAMBENT_FN vec4 map_texel_at(SceneRef scene, MeshRef mesh, TextureViewRef view, TrianglePointRef p,
+                             ConeShare cone_share, bool mean_alone) {
+  if (!mean_alone) return precise_texture_at(scene, mesh, view, p, cone_share);
+  return fetch_texel(fetch_level(scene, view, level_count(scene, view) - 1), 0, 0);
 }
 
-/// A normal in object space, of any length, bent by a normal map; and the mean of the map's vectors
-/// over the footprint, in tangent space, see map_vector_at().
+/// A normal in object space, of any length, bent by a normal map; the mean of the map's vectors
+/// over the footprint, in tangent space, see map_vector(); and how far most of them scatter.
 struct BentNormal {
   vec3 normal;
   vec3 mean;
+  float spread;
 };
 
 LAMBENT_FN BentNormal bent_normal_at(SceneRef scene, MeshRef mesh, TextureViewRef view, float scale,
                                      TrianglePointRef p, vec3 edge1, vec3 edge2, vec3 normal,
                                      ConeShare cone_share) {
-  BentNormal bent = {normal, vec3(0.0f, 0.0f, 1.0f)};
+  BentNormal bent = {normal, vec3(0.0f, 0.0f, 1.0f), 0.0f};
   if (view.texture < 0) return bent;
   bool mean_alone = shows_mean_alone(scene, mesh, view, p, cone_share);
-  bent.mean = map_vector_at(scene, mesh, view, scale, p, cone_share, mean_alone);
+  vec4 texel = map_texel_at(scene, mesh, view, p, cone_share, mean_alone);
+  bent.mean = map_vector(vec3(texel), scale);
+  bent.spread = 1.0f - texel.w;
   // Where the footprint averages over all bumps, the surface is flat
   if (mean_alone) return bent;
   vec4 tangent = tangent_at(mesh, view, p, edge1, edge2);
@@ -192,21 +192,20 @@ LAMBENT_FN ConeShare cone_share_of(Footprint footprint, float double_area) {
 
 /// Variance of the slopes of the bumps that a footprint averages over; 0 where there are none.
 LAMBENT_FN float averaged_slopes(SceneRef scene, MeshRef mesh, MaterialRef material,
-                                 TrianglePointRef p, ConeShare cone_share, vec3 mean) {
+                                 TrianglePointRef p, ConeShare cone_share, BentNormal bent) {
   if (cone_share.blended == 0u || cone_share.of_triangle <= 0.0f) return 0.0f;
   CornerUvs uvs = corner_uvs(mesh, material.normal_texture, p);
   if (!uvs.present) return 0.0f;
   float level = blended_level(scene, material.normal_texture, uvs, cone_share);
-  return level > 0.0f ? slope_variance(mean, material.normal_scale) : 0.0f;
+  return level > 0.0f ? slope_variance(bent.mean, bent.spread, material.normal_scale) : 0.0f;
 }
 
-/// optics_at(), with a coat that is rougher where bumps are averaged over; `mean`: the mean of
-/// their map_vector().
+/// optics_at(), with a coat that is rougher where bumps are averaged over.
 LAMBENT_FN Optics bumpy_optics_at(SceneRef scene, MeshRef mesh, MaterialRef material,
-                                  TrianglePointRef p, ConeShare cone_share, vec3 mean) {
+                                  TrianglePointRef p, ConeShare cone_share, BentNormal bent) {
   Optics optics = optics_at(scene, mesh, material, p, cone_share);
   if (material.normal_texture.texture >= 0) {
-    float slopes = averaged_slopes(scene, mesh, material, p, cone_share, mean);
+    float slopes = averaged_slopes(scene, mesh, material, p, cone_share, bent);
     optics.reflectance.alpha = widened_alpha(optics.reflectance.alpha, slopes);
   }
   return optics;
@@ -264,7 +263,7 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
   surface.normal_ws =
       seen_normal(facing, normal_from_object * bent.normal, material.normal_texture);
 
-  Optics optics = bumpy_optics_at(scene, mesh, material, p, cone_share, bent.mean);
+  Optics optics = bumpy_optics_at(scene, mesh, material, p, cone_share, bent);
   surface.reflectance = optics.reflectance;
   surface.emission = emission_at(scene, mesh, material, p, cone_share);
   if (has_clearcoat(surface.reflectance.layers)) {

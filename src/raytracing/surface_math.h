@@ -101,11 +101,13 @@ LAMBENT_FN vec3 map_vector(vec3 texel, float normal_scale) {
 const float kLengthRounding = 1.0f / 255.0f;
 
 /// Variance of the slopes, along each axis, of bumps with this mean of map_vector(). For small
-/// slopes p the normals' mean is shorter than 1 by the mean of |p|^2 / 2.
-LAMBENT_FN float slope_variance(vec3 mean, float normal_scale) {
+/// slopes p the normals' mean is shorter than 1 by the mean of |p|^2 / 2. `spread`: how far most of
+/// the normals scatter, see build_normal_mips(): a few steep ones widen no lobe.
+LAMBENT_FN float slope_variance(vec3 mean, float spread, float normal_scale) {
   float scale = max(abs(normal_scale), kLengthRounding);
   float mean_length = length(vec3(mean.x / scale, mean.y / scale, mean.z));
-  return max(1.0f - kLengthRounding - mean_length, 0.0f) * normal_scale * normal_scale;
+  float variance = max(1.0f - kLengthRounding - mean_length, 0.0f);
+  return min(variance, spread * spread) * normal_scale * normal_scale;
 }
 
 /// GGX width of a coat over bumps whose slopes have this variance. Toksvig, "Mipmapping Normal

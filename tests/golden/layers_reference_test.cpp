@@ -33,7 +33,7 @@ Texture ribs() {
     level.rgba.push_back(255);
   }
   texture.levels.push_back(std::move(level));
-  build_mips(texture);
+  build_normal_mips(texture);
   return texture;
 }
 

@@ -79,6 +79,34 @@ TEST(Exposure, ShowsWhatIsWhiteAsLighterThanWhatIsGrey) {
   EXPECT_EQ(display_exposure(sky), display_exposure(grey(2.0f)));
 }
 
+// Metal, which has no albedo, is a surface; a lamp or what is seen through glass is not.
+TEST(Exposure, CountsMetalAsASurface) {
+  // Half of the picture is 3 stops darker, and counts in full where it is a surface
+  const auto exposure = [](float albedo, float emission, float transmission, float normal = 0.5f) {
+    LayeredImage frame;
+    frame.require("", 3) = grey(1.0f);
+    frame.require("albedo", 3) = grey(0.5f);
+    frame.require("normal", 3) = grey(normal);
+    frame.require("emission", 3) = grey(0.0f);
+    frame.require("transmission", 3) = grey(0.0f);
+    constexpr std::size_t kHalf = std::size_t{3} * 16 * 8;
+    std::fill_n(frame.find("")->pixels.begin(), kHalf, 0.125f);
+    std::fill_n(frame.find("albedo")->pixels.begin(), kHalf, albedo);
+    std::fill_n(frame.find("emission")->pixels.begin(), kHalf, emission);
+    std::fill_n(frame.find("transmission")->pixels.begin(), kHalf, transmission);
+    return std::log2(display_exposure(frame));
+  };
+  const double surface = exposure(0.5f, 0.0f, 0.0f);
+  EXPECT_EQ(exposure(0.0f, 0.0f, 0.0f), surface) << "metal";
+  EXPECT_LT(exposure(0.0f, 0.125f, 0.0f), surface - 0.5) << "lamp";
+  EXPECT_LT(exposure(0.0f, 0.0f, 0.1f), surface - 0.5) << "glass";
+  EXPECT_LT(exposure(0.0f, 0.0f, 0.0f, 0.0f), surface - 0.5) << "fog before a black sky";
+  // Nearly no albedo is that of metal, too
+  EXPECT_NEAR(exposure(1e-4f, 0.0f, 0.0f), surface, 0.01);
+  // Of a surface that glows, the albedo decides
+  EXPECT_EQ(exposure(0.5f, 0.125f, 0.0f), surface);
+}
+
 /// A dark stage, this share of which stands in light that is 7 stops brighter.
 LayeredImage stage(double lit_share, float albedo) {
   constexpr int kEdge = 40;

@@ -70,6 +70,11 @@ TEST(FirstLight, IsASkyInProportionWhereSunsShineOutOfTheVoid) {
   EXPECT_NEAR(scene.environment.radiance.b, 0.2f * 2.6f, 1e-4f);
   EXPECT_EQ(choose_first_light(World(scene), camera), FirstLight::scene) << "it has a sky now";
 
+  // So it is where the camera looks down on the ground and sees nothing past it
+  scene.environment = {};
+  const Camera down = look_at({0, 1.5f, 0.5f}, {0, 0, 0.4f}, 0.5f);
+  EXPECT_EQ(choose_first_light(World(scene), down), FirstLight::sky);
+
   // An object by itself stays before the black that its author left, and so does a lamp's light
   Scene object = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
   object.lights.push_back(sun);
@@ -129,6 +134,22 @@ TEST(FirstLight, IsTheSunsInACourtThatItsLampsLightInPart) {
 
 TEST(FirstLight, IsWhatLampsEmitWhereTheyLightTheRoom) {
   EXPECT_EQ(chosen(unlit("cornell")), FirstLight::scene);
+}
+
+TEST(FirstLight, IsWhatALampSendsBesideBrighterOnesBehindAWall) {
+  // Two closed rooms; the lamp in the other one has 60 times the power
+  Scene scene = scene_of({box_mesh({-3, -0.2f, -3}, {9, 0, 3}), box_mesh({-3, 3, -3}, {9, 3.2f, 3}),
+                          box_mesh({-3.2f, 0, -3}, {-3, 3, 3}), box_mesh({9, 0, -3}, {9.2f, 3, 3}),
+                          box_mesh({-3, 0, -3.2f}, {9, 3, -3}), box_mesh({-3, 0, 3}, {9, 3, 3.2f}),
+                          box_mesh({3, 0, -3}, {3.2f, 3, 3})});
+  scene.materials.push_back(test::lambert(glm::vec3(0.0f), glm::vec3(100.0f)));
+  Mesh bulb = box_mesh({-0.1f, 2.3f, -0.1f}, {0.1f, 2.5f, 0.1f});
+  bulb.material = 1;
+  test::add(scene, std::move(bulb));
+  scene.materials.push_back(test::lambert(glm::vec3(0.0f), glm::vec3(160.0f)));
+  test::add(scene, test::quad({4, 2.9f, -1.5f}, {3, 0, 0}, {0, 0, 3}, 2));
+  const Camera camera = look_at({-2.5f, 1.6f, 2.5f}, {2, 1, -2}, 1.0f);
+  EXPECT_EQ(choose_first_light(World(scene), camera), FirstLight::scene);
 }
 
 TEST(FirstLight, IsNotWhatASmallEmitterOnAnObjectSends) {

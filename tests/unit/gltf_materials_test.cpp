@@ -77,7 +77,10 @@ TEST(GltfMaterials, ReadLayersAndTheirTextures) {
   ASSERT_GE(data, 0);
   EXPECT_FALSE(scene->textures.at(data).srgb);
   EXPECT_EQ(m.clearcoat_roughness_texture.texture, data);
-  EXPECT_EQ(m.clearcoat_normal_texture.texture, data);
+  // A normal map has MIPs of its own kind
+  ASSERT_GE(m.clearcoat_normal_texture.texture, 0);
+  EXPECT_NE(m.clearcoat_normal_texture.texture, data);
+  EXPECT_FALSE(scene->textures.at(m.clearcoat_normal_texture.texture).srgb);
   EXPECT_EQ(m.sheen_roughness_texture.texture, data);
   ASSERT_GE(m.sheen_color_texture.texture, 0);
   EXPECT_TRUE(scene->textures.at(m.sheen_color_texture.texture).srgb);

@@ -142,6 +142,28 @@ TEST(BuildMips, KeepEverySingleColor) {
   }
 }
 
+TEST(BuildNormalMips, HoldHowFarMostNormalsScatter) {
+  // Three of four columns face up, the last one leans; sizes need not be powers of two
+  Texture texture;
+  texture.levels.resize(1);
+  texture.levels[0].width = 12;
+  texture.levels[0].height = 9;
+  for (int i = 0; i < 12 * 9; ++i) {
+    const std::uint8_t lean = i % 4 == 3 ? 220 : 128;
+    texture.levels[0].rgba.insert(texture.levels[0].rgba.end(), {lean, 128, 215, 7});
+  }
+  build_normal_mips(texture);
+  for (std::size_t i = 3; i < texture.levels[0].rgba.size(); i += 4) {
+    ASSERT_EQ(texture.levels[0].rgba[i], 255);
+  }
+  ASSERT_EQ(texture.levels.size(), 4u);
+  // The mean is off what most normals are by a quarter of (220 - 128) / 127.5, and counts by
+  // 1 / sqrt(2)
+  const std::uint8_t* coarsest = texture.levels.back().rgba.data();
+  EXPECT_NEAR(coarsest[0], 128 + 23, 1);
+  EXPECT_NEAR(255 - coarsest[3], 255 * 0.25 * (220 - 128) / 127.5 / std::sqrt(2.0), 2);
+}
+
 TEST(SampleTexture, BlendsLevelsWhereTheOneIsHalfOfTheOther) {
   const Scene scene = row_of({0, 0, 0, 0, 255, 255, 255, 255});
   const TextureView view = view_of(Wrap::clamp_to_edge);

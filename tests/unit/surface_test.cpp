@@ -111,67 +111,6 @@ TEST(Surface, NormalsGoThroughTheInverseTranspose) {
   expect_near(surface.geometric_normal_ws, surface.normal_ws);
 }
 
-/// A texture of 64 x 64 texels, of which each second one is the other, with its MIPs.
-Texture checked_texture(const glm::u8vec4& one, const glm::u8vec4& other) {
-  constexpr int kEdge = 64;
-  Texture texture;
-  TextureLevel level;
-  level.width = level.height = kEdge;
-  for (int i = 0; i < kEdge * kEdge; ++i) {
-    const glm::u8vec4& texel = (i % kEdge + i / kEdge) % 2 == 0 ? one : other;
-    level.rgba.insert(level.rgba.end(), {texel.r, texel.g, texel.b, texel.a});
-  }
-  texture.levels.push_back(std::move(level));
-  build_mips(texture);
-  return texture;
-}
-
-Surface seen(const Scene& scene, float footprint) {
-  Ray ray;
-  ray.origin = {0.1043f, 0.2021f, 1.0f};
-  ray.direction = {0.0f, 0.0f, -1.0f};
-  return seen_surface_at(scene, ray, make_embree_raytracer(scene)->closest_hit(ray), footprint);
-}
-
-TEST(Surface, ThatIsSeenShowsTheMeanOfItsFootprint) {
-  Material material = lambert(glm::vec3(1.0f));
-  material.base_color_texture.texture = 0;
-  Scene scene = square(material);
-  scene.textures = {checked_texture({255, 255, 255, 255}, {0, 0, 0, 255})};
-  EXPECT_NEAR(seen(scene, 0.1f).reflectance.diffuse.x, 0.5f, 0.01f);
-  // Smaller than a texel, it shows what the texel is
-  const Surface near = seen(scene, 1e-4f), full = look(scene, {0.1043f, 0.2021f, 1.0f}, {0, 0, -1});
-  EXPECT_EQ(near.reflectance.diffuse.x, full.reflectance.diffuse.x);
-  EXPECT_EQ(near.normal_ws, full.normal_ws);
-}
-
-TEST(Surface, BumpsThatAFootprintAveragesOverMakeItsCoatRougher) {
-  // Normals lean by this slope to either side
-  constexpr float kSlope = 0.25f;
-  const glm::vec3 lean = glm::normalize(glm::vec3(kSlope, 0.0f, 1.0f));
-  const auto byte = [](float v) {
-    return static_cast<std::uint8_t>(std::lround(127.5f * v + 127.5f));
-  };
-  const glm::u8vec4 right(byte(lean.x), byte(0.0f), byte(lean.z), 255);
-  const glm::u8vec4 left(byte(-lean.x), byte(0.0f), byte(lean.z), 255);
-  Material material;
-  material.roughness = 0.3f;
-  material.normal_texture.texture = 0;
-  Scene scene = square(material);
-  scene.textures = {checked_texture(right, left)};
-  const float own = 0.3f * 0.3f;
-  EXPECT_EQ(seen(scene, 1e-4f).reflectance.alpha, own);
-  // Their mean is upright. Along both axes together the slopes' variance is the slope's square
-  const Surface far = seen(scene, 0.2f);
-  EXPECT_GT(far.normal_ws.z, 0.999f);
-  const float expected = std::sqrt(own * own + kSlope * kSlope);
-  // What may be rounding is left out
-  EXPECT_NEAR(far.reflectance.alpha, expected, 0.1f * expected);
-  // Where all lean alike, nothing is averaged over but 8-bit rounding
-  scene.textures = {checked_texture(right, right)};
-  EXPECT_EQ(seen(scene, 0.2f).reflectance.alpha, own);
-}
-
 TEST(Surface, InterpolatesNormals) {
   Scene scene;
   scene.materials = {lambert(glm::vec3(0.5f))};

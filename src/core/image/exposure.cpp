@@ -19,6 +19,9 @@ constexpr double kDarker = 5.0, kBrighter = 3.0;
 // leave no room for highlights. Applies only to surfaces lighter than mid-grey: a street at night
 // is dark enough.
 constexpr double kAlbedoShare = 0.5;
+// Metals, whose albedo is 0, count as if they reflected this share of light; below the second
+// albedo, surfaces count as metal in part, so that no noise of a map decides.
+constexpr double kMetalReflectance = 0.5, kLeastAlbedo = 0.01;
 // Surfaces that cover at most kBrightShare of a picture may be brighter than kBright [stops] above
 // mid-grey, half a stop past white; otherwise, as with objects in spot lights on a dark stage, the
 // exposure is lowered, but by no more than kMaxLowered [stops], so that a patch of sun does not
@@ -28,37 +31,83 @@ constexpr double kBrightShare = 0.1, kBright = 3.0, kMaxLowered = 2.0;
 // the second share of the picture at least: a bird in the sky does not decide.
 constexpr double kMostBackground = 0.5, kLeastSurfaces = 0.05;
 
-/// Whether a pixel shows a reflecting surface, rather than sky or a lamp.
-bool is_surface(const float* albedo) {
-  return albedo[0] > 0.0f || albedo[1] > 0.0f || albedo[2] > 0.0f;
+/// Whether a colour has any light; NaN counts as such.
+bool is_lit(const float* color) {
+  return !(color[0] <= 0.0f && color[1] <= 0.0f && color[2] <= 0.0f);
+}
+
+/// A layer of vectors or colours; null where there is none.
+const Image* layer_of(const LayeredImage& frame, const char* name) {
+  const Image* image = frame.find(name);
+  return image != nullptr && image->channels >= 3 ? image : nullptr;
+}
+
+/// What tells reflecting surfaces from the sky, lamps, and what is seen through glass.
+struct SurfaceLayers {
+  explicit SurfaceLayers(const LayeredImage& frame)
+      : albedo(layer_of(frame, "albedo")),
+        normal(layer_of(frame, "normal")),
+        emission(layer_of(frame, "emission")),
+        transmission(layer_of(frame, "transmission")) {}
+
+  bool is_surface(int x, int y) const {
+    if (is_lit(albedo->at(x, y))) return true;
+    return is_hit(x, y) && !shines(emission, x, y) && !shines(transmission, x, y);
+  }
+
+  const Image *albedo, *normal, *emission, *transmission;
+
+ private:
+  bool is_hit(int x, int y) const {
+    if (normal == nullptr) return false;
+    const float* n = normal->at(x, y);
+    return n[0] != 0.0f || n[1] != 0.0f || n[2] != 0.0f;
+  }
+  static bool shines(const Image* layer, int x, int y) {
+    return layer == nullptr || is_lit(layer->at(x, y));
+  }
+};
+
+/// The luminance of a pixel [stops]; not finite where it does not count.
+double luminance_stops(const Image& linear, int x, int y) {
+  const bool grey = linear.channels < 3;
+  const float* in = linear.at(x, y);
+  const float value = luminance(vec3(in[0], in[grey ? 0 : 1], in[grey ? 0 : 2]));
+  return std::log2(value > 0.0f ? static_cast<double>(value) : 0.0);
 }
 
 /// The number of stops by which a surface of this albedo counts as darker than its luminance.
 double albedo_stops(const float* albedo) {
-  const auto level = static_cast<double>(luminance(vec3(albedo[0], albedo[1], albedo[2])));
+  const auto diffuse = static_cast<double>(luminance(vec3(albedo[0], albedo[1], albedo[2])));
+  const double level = diffuse + kMetalReflectance * std::max(0.0, 1.0 - diffuse / kLeastAlbedo);
   return level > kMidGrey ? kAlbedoShare * std::log2(level / kMidGrey) : 0.0;
 }
 
 }  // namespace
 
-void LuminanceHistogram::add(const Image& linear, const Image* albedo) {
-  const bool grey = linear.channels < 3;
-  if (albedo != nullptr && albedo->channels < 3) albedo = nullptr;
+void LuminanceHistogram::add(const Image& linear) {
   for (int y = 0; y < linear.height; ++y) {
     for (int x = 0; x < linear.width; ++x) {
-      const float* in = linear.at(x, y);
-      const float value = luminance(vec3(in[0], in[grey ? 0 : 1], in[grey ? 0 : 2]));
-      if (!(value > 0.0f) || !std::isfinite(value)) continue;
-      double stops = std::log2(static_cast<double>(value));
-      if (albedo != nullptr && !is_surface(albedo->at(x, y))) {
+      const double stops = luminance_stops(linear, x, y);
+      if (std::isfinite(stops)) ++counts_[bin_of(stops)];
+    }
+  }
+}
+
+void LuminanceHistogram::add(const LayeredImage& rows) {
+  const Image& linear = *rows.find("");
+  const SurfaceLayers layers(rows);
+  if (layers.albedo == nullptr) return add(linear);
+  for (int y = 0; y < linear.height; ++y) {
+    for (int x = 0; x < linear.width; ++x) {
+      const double stops = luminance_stops(linear, x, y);
+      if (!std::isfinite(stops)) continue;
+      if (!layers.is_surface(x, y)) {
         ++background_[bin_of(stops)];
         continue;
       }
-      if (albedo != nullptr) {
-        ++surfaces_[bin_of(stops)];
-        stops -= albedo_stops(albedo->at(x, y));
-      }
-      ++counts_[bin_of(stops)];
+      ++surfaces_[bin_of(stops)];
+      ++counts_[bin_of(stops - albedo_stops(layers.albedo->at(x, y)))];
     }
   }
 }
@@ -123,7 +172,7 @@ float display_stops(const Image& linear) {
 
 float display_stops(const LayeredImage& frame) {
   LuminanceHistogram histogram;
-  histogram.add(*frame.find(""), frame.find("albedo"));
+  histogram.add(frame);
   return histogram.stops();
 }
 

@@ -14,9 +14,12 @@ namespace lambent {
 /// of a picture that does not fit into memory.
 class LuminanceHistogram {
  public:
-  /// Counts the pixels of an image of linear radiance; black ones and NaN do not count. `albedo` is
-  /// that of the surfaces in its pixels, 0 where there is none; null: not known.
-  void add(const Image& linear, const Image* albedo = nullptr);
+  /// Counts the pixels of an image of linear radiance; black ones and NaN do not count.
+  void add(const Image& linear);
+  /// Counts the pixels of rows of a frame. The layers albedo, normal, emission and transmission, if
+  /// it has them, say what its pixels show: surfaces have an albedo, or, as metals, a normal, and
+  /// neither emit nor transmit light; all else is background.
+  void add(const LayeredImage& rows);
 
   /// The exposure that brings the typical luminance of the picture to mid-grey [stops]; 0 where all
   /// is black. The typical luminance is the log-average of Reinhard et al., "Photographic Tone
@@ -41,14 +44,14 @@ class LuminanceHistogram {
   /// The share with which a pixel of the background counts.
   double background_weight() const;
 
-  // Pixels by the luminance as which they count. Without an albedo, all are in `counts_`.
+  // Pixels by the luminance as which they count. Of images without layers, all are in `counts_`.
   std::array<std::uint64_t, kBins> counts_{}, background_{};
   std::array<std::uint64_t, kBins> surfaces_{};  // pixels of surfaces, by actual luminance
 };
 
 /// The exposure of an image of linear radiance [stops].
 float display_stops(const Image& linear);
-/// The exposure of a frame's picture [stops]; uses its albedo layer if it has one.
+/// The exposure of a frame's picture [stops]; see LuminanceHistogram::add().
 float display_stops(const LayeredImage& frame);
 
 }  // namespace lambent

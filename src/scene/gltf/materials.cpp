@@ -9,8 +9,7 @@
 namespace lambent::gltf {
 namespace {
 
-constexpr bool kColor = true;  // Texels are sRGB-encoded
-constexpr bool kData = false;  // Texels are numbers
+constexpr Texels kColor = Texels::color, kData = Texels::data, kNormals = Texels::normals;
 
 // Reads one material; errors and warnings name it.
 class MaterialReader {
@@ -38,7 +37,7 @@ class MaterialReader {
     LAMBENT_CHECK(read_clearcoat(options));
     LAMBENT_CHECK(read_sheen());
     if (options.normal_maps) {
-      LAMBENT_CHECK(take(source_.normalTexture, kData, material_.normal_texture));
+      LAMBENT_CHECK(take(source_.normalTexture, kNormals, material_.normal_texture));
       material_.normal_scale = static_cast<float>(source_.normalTexture.scale);
     }
     LAMBENT_CHECK(read_alpha());
@@ -49,9 +48,9 @@ class MaterialReader {
 
  private:
   template <class TextureInfo>
-  Expected<void> take(const TextureInfo& info, bool srgb, TextureView& view) {
+  Expected<void> take(const TextureInfo& info, Texels texels, TextureView& view) {
     if (info.index < 0) return {};
-    LAMBENT_TRY(made, textures_.view(info.index, info.texCoord, info.extensions, srgb, place_));
+    LAMBENT_TRY(made, textures_.view(info.index, info.texCoord, info.extensions, texels, place_));
     view = made;
     return {};
   }
@@ -68,9 +67,9 @@ class MaterialReader {
     }
     return info;
   }
-  Expected<void> take(const tinygltf::Value& extension, const char* key, bool srgb,
+  Expected<void> take(const tinygltf::Value& extension, const char* key, Texels texels,
                       TextureView& view) {
-    return take(info_of(extension, key), srgb, view);
+    return take(info_of(extension, key), texels, view);
   }
 
   void set_base_color(int channel, double value) {
@@ -199,7 +198,7 @@ class MaterialReader {
     if (!options.normal_maps || !clearcoat->Has("clearcoatNormalTexture")) return {};
     material_.clearcoat_normal_scale =
         static_cast<float>(number_or(clearcoat->Get("clearcoatNormalTexture"), "scale", 1.0));
-    return take(*clearcoat, "clearcoatNormalTexture", kData, material_.clearcoat_normal_texture);
+    return take(*clearcoat, "clearcoatNormalTexture", kNormals, material_.clearcoat_normal_texture);
   }
 
   Expected<void> read_sheen() {

@@ -50,16 +50,16 @@ void make_roughness(float glossiness_factor, TextureLevel& level) {
   }
 }
 
-// `glossiness_factor` is 0 where the image's colors are read as they are.
-Expected<Texture> decode_use(const Document& document, int image, bool srgb,
-                             float glossiness_factor) {
-  const ImageSource& source = document.images[image];
-  const std::string place = entry("images", image);
+}  // namespace
+
+Expected<Texture> TextureLibrary::decode(const Document& document, const Use& use) {
+  const ImageSource& source = document.images[use.image];
+  const std::string place = entry("images", use.image);
   Texture texture;
   texture.name =
       source.name.empty() && source.uri.rfind("data:", 0) != 0 ? source.uri : source.name;
   if (texture.name.empty()) texture.name = place;
-  texture.srgb = srgb;
+  texture.srgb = use.texels == Texels::color;
 
   Bytes file_bytes;
   ByteSpan bytes;
@@ -75,10 +75,16 @@ Expected<Texture> decode_use(const Document& document, int image, bool srgb,
   }
   LAMBENT_TRY(level, decode_image(bytes, document.file, place));
   texture.levels.push_back(std::move(level));
-  if (glossiness_factor > 0.0f) make_roughness(glossiness_factor, texture.levels.front());
-  build_mips(texture);
+  if (use.glossiness > 0.0f) make_roughness(use.glossiness, texture.levels.front());
+  if (use.texels == Texels::normals) {
+    build_normal_mips(texture);
+  } else {
+    build_mips(texture);
+  }
   return texture;
 }
+
+namespace {
 
 // Maximum number of names listed in a warning; the rest is counted.
 constexpr std::size_t kNamed = 3;
@@ -106,15 +112,15 @@ std::string users_of(const std::vector<Material>& materials, Reads reads_texture
 }  // namespace
 
 Expected<TextureView> TextureLibrary::view(int texture, int tex_coord,
-                                           const tinygltf::ExtensionMap& extensions, bool srgb,
+                                           const tinygltf::ExtensionMap& extensions, Texels texels,
                                            const std::string& place) {
-  return view(texture, tex_coord, extensions, Use{-1, srgb, 0.0f}, place);
+  return view(texture, tex_coord, extensions, Use{-1, texels, 0.0f}, place);
 }
 
 Expected<TextureView> TextureLibrary::view_of_glossiness(int texture, int tex_coord,
                                                          const tinygltf::ExtensionMap& extensions,
                                                          float factor, const std::string& place) {
-  return view(texture, tex_coord, extensions, Use{-1, false, factor}, place);
+  return view(texture, tex_coord, extensions, Use{-1, Texels::data, factor}, place);
 }
 
 Expected<TextureView> TextureLibrary::view(int texture, int tex_coord,
@@ -161,9 +167,8 @@ Expected<TextureView> TextureLibrary::view(int texture, int tex_coord,
 
 std::vector<Texture> TextureLibrary::decode(std::vector<Material>& materials) {
   std::vector<Expected<Texture>> decoded(uses_.size(), Texture{});
-  tbb::parallel_for(std::size_t{0}, uses_.size(), [&](std::size_t i) {
-    decoded[i] = decode_use(*document_, uses_[i].image, uses_[i].srgb, uses_[i].glossiness);
-  });
+  tbb::parallel_for(std::size_t{0}, uses_.size(),
+                    [&](std::size_t i) { decoded[i] = decode(*document_, uses_[i]); });
   warn_of_missing(decoded, materials);
 
   std::vector<Texture> textures;

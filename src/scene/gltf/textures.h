@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <set>
 
 #include "lambent/scene.h"
@@ -8,17 +9,20 @@
 
 namespace lambent::gltf {
 
+/// What a texture's texels are: sRGB-encoded colours, numbers, or a normal map's vectors.
+enum class Texels : std::uint8_t { color, data, normals };
+
 /// Collects the uses of images by materials, as colour or data, and then decodes each use once.
 class TextureLibrary {
  public:
   explicit TextureLibrary(Document& document) : document_(&document) {}
 
-  /// How a material reads a glTF texture. Uses of one image share a texture, but colour (`srgb`)
-  /// and data do not. `texture`, `tex_coord` and `extensions` are those of a textureInfo; `place`
+  /// How a material reads a glTF texture. Uses of one image as the same kind of texels share a
+  /// texture. `texture`, `tex_coord` and `extensions` are those of a textureInfo; `place`
   /// is its material, for warnings. Empty, with a warning, where the texture has no image of a
   /// supported format.
   Expected<TextureView> view(int texture, int tex_coord, const tinygltf::ExtensionMap& extensions,
-                             bool srgb, const std::string& place);
+                             Texels texels, const std::string& place);
 
   /// The same of the alpha of a texture of glossiness, read as a metallic-roughness texture of
   /// roughness 1 - `factor` * alpha, whose metal is to be multiplied with 0.
@@ -35,13 +39,14 @@ class TextureLibrary {
  private:
   struct Use {
     int image;
-    bool srgb;
+    Texels texels;
     float glossiness;  ///< Its factor, above 0, where roughness is made of alpha; else 0.
     bool operator==(const Use&) const = default;
   };
   /// How a textureInfo reads its texture; `use` tells what of. Its image is filled in here.
   Expected<TextureView> view(int texture, int tex_coord, const tinygltf::ExtensionMap& extensions,
                              Use use, const std::string& place);
+  static Expected<Texture> decode(const Document& document, const Use& use);
   void warn_of_missing(const std::vector<Expected<Texture>>& decoded,
                        const std::vector<Material>& materials);
   Document* document_;
