@@ -349,8 +349,7 @@ class FramePassesCpu final : public FramePasses {
   };
 
   const FrameRequest& request() const { return now_->request; }
-  /// Index of the sample among those of all frames, so that each frame draws other random numbers.
-  int drawn_sample() const { return sample_ + static_cast<int>(request().first_sample); }
+  int drawn_sample() const { return request().drawn(sample_); }
   /// First pixel of the band among the traced pixels.
   std::size_t first_pixel() const {
     const FrameSettings& settings = request().settings;

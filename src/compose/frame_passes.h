@@ -27,6 +27,8 @@ struct FrameRequest {
   std::uint32_t first_sample = 0;         ///< Index of the frame's first sample among all samples.
   const TaaSequence* sequence = nullptr;  ///< Null: no temporal anti-aliasing.
 
+  /// Index of a sample among those of all frames, so that each frame draws other random numbers.
+  int drawn(int sample) const { return sample + static_cast<int>(first_sample); }
   /// The argument `jitter` of subpixel_position().
   std::uint32_t jitter() const { return sequence != nullptr ? 1 + sequence->index() : 0; }
 };

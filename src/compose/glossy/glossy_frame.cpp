@@ -279,10 +279,12 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
   const GlossyRows own{pixels, band.first_row};
   const GlossyRows around[] = {
       {memory.above, above.first_row}, own, {memory.below, below.first_row}};
-  const GlossySettings glossy{
-      request.world, request.sources.field,
-      drawing,       camera_record(request.camera, settings.width, settings.height),
-      sample,        request.jitter()};
+  const GlossySettings glossy{request.world,
+                              request.sources.field,
+                              drawing,
+                              camera_record(request.camera, settings.width, settings.height),
+                              request.drawn(sample),
+                              request.jitter()};
   traced += memory.coats.reflect(glossy, around, own, light);
   for (std::size_t i = 0; i < sky.size(); ++i) {
     if (light.light[i].w > 0.0f) light.light[i] += vec4(sky[i], 0.0f);

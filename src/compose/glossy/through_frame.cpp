@@ -129,10 +129,12 @@ std::uint64_t look_through_band(const FrameRequest& request, const Band& band, i
                                 const GBuffer& pixels, const KeptBehind& kept, GlossyMemory& memory,
                                 TransmittedLight& light) {
   const FrameSettings& settings = request.settings;
-  const GlossySettings through{
-      request.world, request.sources.field,
-      settings,      camera_record(request.camera, settings.width, settings.height),
-      sample,        request.jitter()};
+  const GlossySettings through{request.world,
+                               request.sources.field,
+                               settings,
+                               camera_record(request.camera, settings.width, settings.height),
+                               request.drawn(sample),
+                               request.jitter()};
   return memory.coats.look_through(through, {pixels, band.first_row}, kept, light);
 }
 
