@@ -56,10 +56,10 @@ struct FrameSettings {
   bool denoise = false;
   /// Number of the renderer's pictures over which light is averaged before it is filtered, 1 to
   /// 1000; 1: no averaging. Light through glass is not averaged. More pictures leave less noise in
-  /// sequences, at up to 510 bytes per pixel. Each picture then draws other rays. Surfaces are
-  /// followed by their motion, reflections by what they show. Averages start anew for surfaces that
-  /// were not seen before, and for all light when the world's revision changes. For whole pictures
-  /// of one sample per pixel, with `denoise`, on the processor.
+  /// sequences, at up to 490 bytes per pixel. Each picture then draws other rays. Surfaces are
+  /// followed as the camera moves, reflections by what they show. Averages start anew for surfaces
+  /// that were not seen before, and for all light when the world's revision changes. For whole
+  /// pictures of one sample per pixel, with `denoise`, on the processor.
   int averaged_frames = 1;
   /// Write the layer "motion" (motion vectors) with two channels: the position at which the
   /// renderer's picture before showed the surface of a pixel, less its position now [pixels, +x

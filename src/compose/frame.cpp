@@ -80,7 +80,8 @@ bool is_same(const PictureView& a, const PictureView& b) {
 std::optional<FrameBefore> frame_before(const PictureView& before, const World& world,
                                         const FrameSettings& settings) {
   const bool same_size = before.width == settings.width && before.height == settings.height;
-  if (before.pose == nullptr || !same_size || !wants_motion(settings)) return std::nullopt;
+  const bool wanted = wants_motion(settings) || averages(settings);
+  if (before.pose == nullptr || !same_size || !wanted) return std::nullopt;
   FrameBefore frame{before.camera, before.pose == pose_of(world), {}};
   if (!frame.at_rest) {
     frame.instances = instances_before(*before.pose, *pose_of(world), world.scene());

@@ -38,9 +38,9 @@ inline bool averages(const FrameSettings& settings) {
   return settings.averaged_frames > 1;
 }
 
-/// Whether the motion of pixels is computed.
+/// Whether the motion of pixels is computed. Averages of light need none: they follow the camera.
 inline bool wants_motion(const FrameSettings& settings) {
-  return settings.motion || averages(settings) || settings.temporal_antialiasing;
+  return settings.motion || settings.temporal_antialiasing;
 }
 
 /// Whether indirect light is gathered by rays from the pixels.

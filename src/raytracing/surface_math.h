@@ -4,6 +4,7 @@
 #define LAMBENT_RAYTRACING_SURFACE_MATH_H
 
 #include "shared/brdf.h"
+#include "shared/bumps.h"
 
 LAMBENT_BEGIN
 
@@ -97,17 +98,13 @@ LAMBENT_FN vec3 map_vector(vec3 texel, float normal_scale) {
   return vec3(n.x * normal_scale, n.y * normal_scale, n.z);
 }
 
-// Maps have 8 bits a component: means of equal normals are shorter than 1 by up to this rounding.
-const float kLengthRounding = 1.0f / 255.0f;
-
-/// Variance of the slopes, along each axis, of bumps with this mean of map_vector(). For small
-/// slopes p the normals' mean is shorter than 1 by the mean of |p|^2 / 2. `spread`: how far most of
-/// the normals scatter, see build_normal_mips(): a few steep ones widen no lobe.
+/// Variance of the slopes, along each axis, of bumps with this mean of map_vector(). `spread`: how
+/// far most of the normals scatter, see build_normal_mips(): a few steep ones widen no lobe.
 LAMBENT_FN float slope_variance(vec3 mean, float spread, float normal_scale) {
   float scale = max(abs(normal_scale), kLengthRounding);
   float mean_length = length(vec3(mean.x / scale, mean.y / scale, mean.z));
-  float variance = max(1.0f - kLengthRounding - mean_length, 0.0f);
-  return min(variance, spread * spread) * normal_scale * normal_scale;
+  float variance = min(variance_of_slopes(mean_length), spread * spread);
+  return variance * normal_scale * normal_scale;
 }
 
 /// GGX width of a coat over bumps whose slopes have this variance. Toksvig, "Mipmapping Normal

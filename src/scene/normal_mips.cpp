@@ -9,6 +9,7 @@
 #include <span>
 
 #include "scene/texture.h"
+#include "shared/bumps.h"
 #include "shared/color.h"
 #include "shared/sampling.h"
 
@@ -18,14 +19,15 @@ namespace {
 // Most normals along each axis of which a coarse texel's spread is measured.
 constexpr int kSamples = 4;
 constexpr std::size_t kMostNormals = std::size_t{kSamples} * kSamples;
-// Normals whose mean is shorter than 1 by no more are alike: 8 bits a component round them so.
-constexpr float kAlike = 1.0f / 255.0f;
 // Texels over this many normals along each axis are the first whose spread is measured: four
 // normals are too few to tell most of them from others.
 constexpr int kFewestNormals = 4;
 // Median of the squared distances of normally distributed points of a plane from their centre, over
 // the variance along each axis: 2 ln 2.
 constexpr float kSquaredMedian = 1.3862944f;
+
+// Alpha where normals do not scatter.
+constexpr std::uint8_t kNoSpread = 255;
 
 float square_of(float x, float y) {
   return x * x + y * y;
@@ -54,7 +56,8 @@ struct Normals {
       values[i] = square_of(x[i] - center_x, y[i] - center_y);
     }
     const float scatter = median(some) / kSquaredMedian;
-    return std::sqrt(scatter + 0.5f * square_of(mean_x - center_x, mean_y - center_y));
+    const float off_along_each = 0.5f * square_of(mean_x - center_x, mean_y - center_y);
+    return std::sqrt(scatter + off_along_each);
   }
 };
 
@@ -80,7 +83,7 @@ float component(std::uint8_t byte) {
 
 /// The alpha that stands for a spread.
 std::uint8_t alpha_of(float spread) {
-  return static_cast<std::uint8_t>(std::lround(255.0f * (1.0f - std::min(spread, 1.0f))));
+  return static_cast<std::uint8_t>(std::lround(kNoSpread * (1.0f - std::min(spread, 1.0f))));
 }
 
 /// Stores the spreads of a level's normals.
@@ -91,8 +94,8 @@ void measure_spread(const TextureLevel& finest, TextureLevel& coarse) {
     for (int x = 0; x < coarse.width; ++x) {
       std::uint8_t* out = &coarse.rgba[4 * (static_cast<std::size_t>(y) * coarse.width + x)];
       const glm::vec3 mean(component(out[0]), component(out[1]), component(out[2]));
-      const float variance = 1.0f - glm::length(mean) - kAlike;  // of small slopes
-      if (variance <= 0.0f) continue;
+      const float variance = variance_of_slopes(glm::length(mean));
+      if (variance <= 0.0f) continue;  // its normals are alike
       const Extent columns(x, finest.width, coarse.width);
       if (std::max(rows.length, columns.length) < kFewestNormals) {
         out[3] = alpha_of(std::sqrt(variance));
@@ -120,7 +123,7 @@ void measure_spread(const TextureLevel& finest, TextureLevel& coarse) {
 void build_normal_mips(Texture& texture) {
   assert(!texture.levels.empty() && !texture.srgb);
   TextureLevel& finest = texture.levels.front();
-  for (std::size_t i = 3; i < finest.rgba.size(); i += 4) finest.rgba[i] = 255;
+  for (std::size_t i = 3; i < finest.rgba.size(); i += 4) finest.rgba[i] = kNoSpread;
   build_mips(texture);
   for (std::size_t level = 1; level < texture.levels.size(); ++level) {
     measure_spread(texture.levels.front(), texture.levels[level]);

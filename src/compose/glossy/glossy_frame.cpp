@@ -253,6 +253,16 @@ std::uint64_t Glossy::reflect(const GlossySettings& settings, std::span<const Gl
   return traced;
 }
 
+GlossySettings glossy_settings(const FrameRequest& request, const FrameSettings& frame,
+                               int sample) {
+  return {request.world,
+          request.sources.field,
+          frame,
+          camera_record(request.camera, frame.width, frame.height),
+          request.drawn(sample),
+          request.jitter()};
+}
+
 std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sample, CoatKind kind,
                            const GBuffer& pixels, std::span<const vec3> sky, GlossyMemory& memory,
                            CoatLight& light) {
@@ -279,13 +289,7 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
   const GlossyRows own{pixels, band.first_row};
   const GlossyRows around[] = {
       {memory.above, above.first_row}, own, {memory.below, below.first_row}};
-  const GlossySettings glossy{request.world,
-                              request.sources.field,
-                              drawing,
-                              camera_record(request.camera, settings.width, settings.height),
-                              request.drawn(sample),
-                              request.jitter()};
-  traced += memory.coats.reflect(glossy, around, own, light);
+  traced += memory.coats.reflect(glossy_settings(request, drawing, sample), around, own, light);
   for (std::size_t i = 0; i < sky.size(); ++i) {
     if (light.light[i].w > 0.0f) light.light[i] += vec4(sky[i], 0.0f);
   }

@@ -107,6 +107,9 @@ enum class CoatKind : std::uint8_t { coat, clearcoat };
 /// Replaces each surface's reflectance by that of its clearcoat alone.
 void show_clearcoats(GBuffer& pixels);
 
+/// Inputs of a sample's reflections; `frame`: the frame's settings, with the seed to draw with.
+GlossySettings glossy_settings(const FrameRequest& request, const FrameSettings& frame, int sample);
+
 /// Computes the light that the coats of a band's pixels, or their clearcoats, reflect from rays.
 /// For clearcoats, `pixels` must come from show_clearcoats(). `sky`: what they reflect of samples
 /// of the sky, see ReflectedLight, which is added; empty where there is none. `light`: see

@@ -58,7 +58,7 @@ class LobeFinder {
     std::size_t index;
     vec3 to_viewer_ws;
     const LobeGuide& guide;
-    bool rests;  // the previous camera saw its surface at the same place
+    bool rests;  // the previous camera saw its surface at the same place: its only tap is itself
   };
 
   /// History where the previous camera saw, in the plane of a pixel's surface, what its lobe shows.
@@ -107,7 +107,7 @@ class LobeFinder {
     if (there.sharpness <= 0.0f) return 0.0f;
     LobeWeights::PixelLobe lobe_there = LobeWeights::of(there);
     vec3 apart_ws = before_.seen.positions_ws[tap] - now_.positions_ws[here.index];
-    if (here.rests && tap == here.index) {
+    if (here.rests) {
       // Directions differ by the jitter within the pixel, over which mirrors are averaged, too
       lobe_there.mirror_ws = here.guide.mirror_ws;
       apart_ws = vec3(0.0f);

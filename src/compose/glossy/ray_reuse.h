@@ -19,7 +19,7 @@ struct GlossySettings {
   const IrradianceField* field;  ///< Null: there is none.
   const FrameSettings& frame;
   CameraRecord camera;
-  int sample = 0;
+  int sample = 0;            ///< Index among the samples of all frames.
   std::uint32_t jitter = 0;  ///< See camera_cone().
 };
 

@@ -128,14 +128,8 @@ std::uint64_t Glossy::look_through(const GlossySettings& settings, const GlossyR
 std::uint64_t look_through_band(const FrameRequest& request, const Band& band, int sample,
                                 const GBuffer& pixels, const KeptBehind& kept, GlossyMemory& memory,
                                 TransmittedLight& light) {
-  const FrameSettings& settings = request.settings;
-  const GlossySettings through{request.world,
-                               request.sources.field,
-                               settings,
-                               camera_record(request.camera, settings.width, settings.height),
-                               request.drawn(sample),
-                               request.jitter()};
-  return memory.coats.look_through(through, {pixels, band.first_row}, kept, light);
+  return memory.coats.look_through(glossy_settings(request, request.settings, sample),
+                                   {pixels, band.first_row}, kept, light);
 }
 
 }  // namespace lambent

@@ -12,7 +12,7 @@ namespace lambent::gltf {
 /// What a texture's texels are: sRGB-encoded colours, numbers, or a normal map's vectors.
 enum class Texels : std::uint8_t { color, data, normals };
 
-/// Collects the uses of images by materials, as colour or data, and then decodes each use once.
+/// Collects the uses of images by materials, as kinds of texels, and then decodes each use once.
 class TextureLibrary {
  public:
   explicit TextureLibrary(Document& document) : document_(&document) {}

@@ -32,21 +32,13 @@ static void importances_in_group(const float* group, const vec3& position_ws, co
                                  const PickLobe& lobe, float* importances) {
   static_assert(sizeof(ClusterNumbers) == kGroupNumbers * sizeof(Lanes));
   // Loaded one by one: g++ 12 copies all of them at once by a string move, a fifth of a pick's time
-  ClusterNumbers n;
-  load(n.center_x, group);
-  load(n.center_y, group + kLanes);
-  load(n.center_z, group + 2 * kLanes);
-  load(n.half_x, group + 3 * kLanes);
-  load(n.half_y, group + 4 * kLanes);
-  load(n.half_z, group + 5 * kLanes);
-  load(n.axis_x, group + 6 * kLanes);
-  load(n.axis_y, group + 7 * kLanes);
-  load(n.axis_z, group + 8 * kLanes);
-  load(n.cos_spread, group + 9 * kLanes);
-  load(n.sin_spread, group + 10 * kLanes);
-  load(n.intensity, group + 11 * kLanes);
-  load(n.cos_emission, group + 12 * kLanes);
-  load(n.both_sides, group + 13 * kLanes);
+  const auto at = [group](int number) {
+    Lanes lanes;
+    load(lanes, group + number * kLanes);
+    return lanes;
+  };
+  const ClusterNumbers n = {at(0), at(1), at(2), at(3),  at(4),  at(5),  at(6),
+                            at(7), at(8), at(9), at(10), at(11), at(12), at(13)};
   store(importances, importance_of(n, position_ws, normal_ws, lobe));
 }
 
