@@ -74,8 +74,9 @@ Environment sky_of_dome(const Scene& dome, const glm::vec3& eye_ws);
 
 /// A box of about 4,096 probes around the surfaces that surround a camera, for fields whose grid
 /// has hardly a cell there, since the scene is far larger than the room or the yard in which the
-/// camera stands. None where the grid is fine enough, and where the camera stands in the open.
-/// `spacing`: of the grid's probes along each axis [m]. Traces some 600 rays.
+/// camera stands; or around the nearer part of what it sees from the open, a house in its grounds.
+/// None where the grid is fine enough, and where the camera sees far into the open. `spacing`: of
+/// the grid's probes along each axis [m]. Traces some 1,000 rays.
 std::optional<ProbeVolume> near_volume(const World& world, const Camera& camera,
                                        const glm::vec3& spacing);
 

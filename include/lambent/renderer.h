@@ -58,7 +58,9 @@ struct FrameSettings {
   /// 1000; 1: no averaging. Light through glass is not averaged. More pictures leave less noise in
   /// sequences, at up to 490 bytes per pixel. Each picture then draws other rays. Surfaces are
   /// followed as the camera moves, reflections by what they show. Averages start anew for surfaces
-  /// that were not seen before, and for all light when the world's revision changes. For whole
+  /// that were not seen before; where things move, on them, around them, in the shadows of lamps
+  /// that they may move, and where mirrors may show them; and for all light when lights, materials
+  /// or the sky change. Elsewhere a frame counts as one of 8 at least while things move. For whole
   /// pictures of one sample per pixel, with `denoise`, on the processor.
   int averaged_frames = 1;
   /// Write the layer "motion" (motion vectors) with two channels: the position at which the

@@ -6,6 +6,7 @@
 
 #include "compose/check_frame.h"
 #include "compose/frame_passes.h"
+#include "compose/history/moved_parts.h"
 #include "compose/motion.h"
 #include "lambent/world.h"
 #include "raytracing/world_access.h"
@@ -97,9 +98,6 @@ FrameChange change_of(const PictureView& before, const PictureView& now, const W
   change.moved = !is_same(before.camera, now.camera);
   change.edited = before.world_revision != now.world_revision;
   const auto edits = world.changes_since(before.world_revision);
-  const auto relights = [](const WorldChanges& edit) {
-    return !edit.lights.empty() || !edit.materials.empty() || edit.emission || edit.environment;
-  };
   change.relit =
       !edits || std::any_of(edits->begin(), edits->end(), relights) || before.fog != now.fog;
   return change;
@@ -150,9 +148,13 @@ Expected<void> Renderer::render(const Camera& camera, const FrameSettings& setti
   const std::optional<FrameBefore> before = frame_before(s.before_last, s.world, settings);
   if (before) request.before = &*before;
   request.sequence = s.next_of_sequence(view);
+  std::optional<MovedParts> moved;
   if (averages(settings)) {
-    request.light_continues = before && s.before_last.world_revision == view.world_revision &&
-                              s.before_last.fog == view.fog;
+    if (before && s.before_last.fog == view.fog) {
+      request.light_continues = s.before_last.world_revision == view.world_revision;
+      if (!request.light_continues) moved = moved_since(s.world, s.before_last.world_revision);
+      if (moved) request.moved = &*moved;
+    }
     request.first_sample = static_cast<std::uint32_t>(s.frames);
   }
   if (s.passes == nullptr) s.passes = make_frame_passes(s.world);

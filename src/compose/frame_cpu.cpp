@@ -9,7 +9,7 @@
 #include "compose/frame_tasks.h"
 #include "compose/glossy/glossy_frame.h"
 #include "compose/layers.h"
-#include "compose/light_history.h"
+#include "compose/history/light_history.h"
 #include "compose/motion.h"
 #include "compose/pixel_math.h"
 #include "compose/rsm/rsm_frame.h"

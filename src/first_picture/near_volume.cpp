@@ -16,12 +16,22 @@ namespace {
 
 // Number of rays around the camera. Surfaces that it does not see light those that it sees.
 constexpr int kSurroundRays = 256;
-// Where fewer of these hit a surface, the camera stands in the open, and nothing bounds its
-// surroundings.
-constexpr float kMinHitShare = 0.25f;
+// Where fewer of these hit a surface, the camera stands in the open, and nothing but the ground
+// bounds its surroundings.
+constexpr float kMinHitShare = 0.6f;
 // The box leaves out this share of the hits on either side of each axis: views through windows and
 // doors. Walls of a room take more.
 constexpr float kOutlierShare = 0.1f;
+// Where there is no such box, finer probes are put among this share of the surfaces that the camera
+// sees, the nearest ones: a house in its grounds.
+constexpr float kNearbyShare = 0.75f;
+// Their box leaves out this share of them on either side of each axis.
+constexpr float kNearbyOutlierShare = 0.02f;
+// It is enlarged by this share of its size on either side: rooms lie behind the walls and
+// the windows that the camera sees.
+constexpr float kNearbyMargin = 0.35f;
+// It must be smaller than this along each side, before it is enlarged [cells].
+constexpr float kNearbyCells = 2.0f;
 // A grid with fewer cells than this along each side of the box cannot show how light varies there.
 constexpr float kMinCells = 4.0f;
 
@@ -41,10 +51,24 @@ std::vector<glm::vec3> places_around(const World& world, const Camera& camera) {
   return places;
 }
 
-/// A box around most of the places.
-Bounds box_around(const std::vector<glm::vec3>& places) {
+/// Places of the nearest surfaces that the camera sees: a share of them.
+std::vector<glm::vec3> places_nearby(const World& world, const Camera& camera) {
+  const glm::vec3 eye(camera.world_from_view[3]);
+  std::vector<glm::vec3> places;
+  for (const SeenPoint& seen : sample_view(world, camera).points) {
+    places.push_back(seen.point.position_ws);
+  }
+  std::sort(places.begin(), places.end(), [&](const glm::vec3& a, const glm::vec3& b) {
+    return glm::distance(a, eye) < glm::distance(b, eye);
+  });
+  places.resize(static_cast<std::size_t>(kNearbyShare * static_cast<float>(places.size())));
+  return places;
+}
+
+/// A box around most of the places, without this share of them on either side of each axis.
+Bounds box_around(const std::vector<glm::vec3>& places, float left_out) {
   Bounds box;
-  const auto outliers = static_cast<std::size_t>(kOutlierShare * static_cast<float>(places.size()));
+  const auto outliers = static_cast<std::size_t>(left_out * static_cast<float>(places.size()));
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<float> along;
     along.reserve(places.size());
@@ -61,13 +85,20 @@ Bounds box_around(const std::vector<glm::vec3>& places) {
 std::optional<ProbeVolume> near_volume(const World& world, const Camera& camera,
                                        const glm::vec3& spacing) {
   if (camera.orthographic) return std::nullopt;
-  const std::vector<glm::vec3> places = places_around(world, camera);
-  if (places.empty()) return std::nullopt;
-  Bounds box = box_around(places);
   const glm::vec3 eye(camera.world_from_view[3]);
-  box.min = glm::min(box.min, eye);
-  box.max = glm::max(box.max, eye);
-  if (glm::any(glm::greaterThanEqual(box.max - box.min, kMinCells * spacing))) return std::nullopt;
+  // Whether there is a box around places and the camera that is smaller than this along each side
+  Bounds box;
+  const auto fits = [&](const std::vector<glm::vec3>& places, float left_out, float cells) {
+    if (places.empty()) return false;
+    box = box_around(places, left_out);
+    box.add(eye);
+    return glm::all(glm::lessThan(box.max - box.min, cells * spacing));
+  };
+  if (!fits(places_around(world, camera), kOutlierShare, kMinCells)) {
+    if (!fits(places_nearby(world, camera), kNearbyOutlierShare, kNearbyCells)) return std::nullopt;
+    const glm::vec3 margin = kNearbyMargin * (box.max - box.min);
+    box = {box.min - margin, box.max + margin};
+  }
 
   const Expected<FieldGrid> grid = fit_grid({}, box);
   if (!grid) return std::nullopt;

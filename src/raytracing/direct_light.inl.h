@@ -142,7 +142,7 @@ LAMBENT_FN LightCandidate resampled_candidate(DrawsRef draws, ReceiverRef receiv
   for (uint i = 0u; i < count; ++i) {
     float second = fract(shift + float(i) * (kGoldenRatio - 1.0f));
     LightCandidate candidate = drawn_candidate(draws, receiver.point, picks.at[first + i], second);
-    offer(resampling, candidate, target_of(receiver, candidate));
+    offer(resampling, candidate, picks.at[first + i].visibility * target_of(receiver, candidate));
   }
   return resampled(resampling, share);
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/stopwatch.h"
+#include "raytracing/light_visibility/learn_light_visibility.h"
 #include "raytracing/motion/scene_pose.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/scene_snapshot.h"
@@ -47,6 +48,10 @@ void update_tracer(DeviceWorld* on_device, RayTracer& tracer, const SceneEdits& 
   }
 }
 
+void upload_visibility(DeviceWorld* on_device, const LightTree& lights) {
+  if (on_device != nullptr) on_device->update_light_visibility(lights.visibility());
+}
+
 #else
 
 // Without Vulkan, no device can be opened
@@ -64,6 +69,7 @@ void update_tracer(DeviceWorld*, RayTracer& tracer, const SceneEdits& edits,
                    const EmissiveTriangles&, const LightTree&) {
   if (edits.geometry_differs) tracer.update(edits.geometry);
 }
+void upload_visibility(DeviceWorld*, const LightTree&) {}
 
 #endif
 
@@ -88,9 +94,15 @@ World::State::State(const Scene& scene, std::shared_ptr<vulkan::Device> lent)
 
 World::State::~State() = default;
 
+void World::State::set_light_visibility(LightVisibility visibility) {
+  lights->set_visibility(std::move(visibility));
+  upload_visibility(on_device.get(), *lights);
+}
+
 World::World(const Scene& scene, std::shared_ptr<vulkan::Device> device) : scene_(&scene) {
   assert(validate(scene));
   state_ = std::make_unique<State>(scene, std::move(device));
+  state_->set_light_visibility(learn_light_visibility(*this));
 }
 
 World::~World() = default;
@@ -120,6 +132,10 @@ Expected<WorldChanges> World::update() {
   edits.changes.revision = history.revision;
   if (!edits.changes.any()) return std::move(edits.changes);
   edits.changes.revision = ++history.revision;
+  const LightTree& lights = *state_->lights;
+  if (lights.has_choice() && (edits.geometry_differs || lights.visibility().empty())) {
+    state_->set_light_visibility(follow_light_visibility(*this, lights.visibility()));
+  }
   edits.changes.refit_ms = watch.lap();
   if (history.log.size() == kLogLength) history.log.pop_front();
   history.log.push_back(edits.changes);

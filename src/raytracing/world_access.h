@@ -11,6 +11,7 @@ namespace lambent {
 class DeviceWorld;
 class EmissiveTriangles;
 class LightTree;
+class LightVisibility;
 class RayTracer;
 class SkyLevels;
 struct ScenePose;
@@ -19,6 +20,9 @@ struct World::State {
   /// Builds everything, on the device where that is not null.
   State(const Scene& scene, std::shared_ptr<vulkan::Device> device);
   ~State();
+
+  /// Picks lights by their visibility from now on.
+  void set_light_visibility(LightVisibility visibility);
 
   struct History;
   std::unique_ptr<EmissiveTriangles> emissive;

@@ -155,6 +155,8 @@ TEST(Reflections, ChangeWithRoughnessInNoLargerStepsThanTheReferences) {
   constexpr int kSteps = 64, kSide = 24;
   // The field holds all bounces after one, and its noise, of the same rays at each step, cancels
   constexpr int kUpdates = 2;
+  // With 16 samples, noise doubles our largest step
+  constexpr int kSamples = 64;
   const auto mean_of = [](const LayeredImage& image) {
     const Image& glossy = *image.find("glossy");
     double sum = 0.0;
@@ -165,7 +167,7 @@ TEST(Reflections, ChangeWithRoughnessInNoLargerStepsThanTheReferences) {
   double before = 0.0, reference_before = 0.0;
   for (int i = 0; i < kSteps; ++i) {
     const test::Stage stage(room_with_plate(static_cast<float>(i) / (kSteps - 1)));
-    const Pictures pictures = pictures_of(stage, kSide, 16, 64, kUpdates);
+    const Pictures pictures = pictures_of(stage, kSide, kSamples, kSamples, kUpdates);
     const double now = mean_of(pictures.ours), reference = mean_of(pictures.reference);
     if (i > 0) {
       largest = std::max(largest, std::abs(now / before - 1.0));

@@ -35,6 +35,12 @@ void group_importances(const LightGroups& groups, uint group, const vec3& positi
         light_importance(groups.nodes()[group * kLightGroupSize + k], position_ws, normal_ws, lobe);
   }
 }
+bool knows_visibility(const LightGroups& /*groups*/, uint /*group*/) {
+  return false;
+}
+float fetch_visibility(const LightGroups& /*groups*/, uint /*group*/, uint /*child*/) {
+  return 1.0f;
+}
 
 #include "scene/light_tree/light_tree.inl.h"
 

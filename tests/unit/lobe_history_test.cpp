@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "compose/glossy/lobe_history.h"
+#include "compose/history/lobe_history.h"
 #include "denoise/atrous_pass.h"
 #include "lambent/renderer.h"
 #include "raytracing/camera_rays.h"

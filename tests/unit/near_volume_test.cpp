@@ -37,6 +37,21 @@ TEST(NearVolume, FillsTheRoomOfACameraWhereTheGridIsFarCoarser) {
   }
 }
 
+TEST(NearVolume, HoldsAHouseThatACameraSeesInWideGrounds) {
+  const glm::vec3 low(-4, 0, -3), high(4, 5, 3);
+  const Scene scene =
+      scene_of({box_mesh(low, high), box_mesh({-200, -1, -200}, {200, -0.01f, 200})});
+  const World world(scene);
+  const auto volume = near_volume(world, look_at({9, 3, 21}, {0, 2, 0}, 0.9f), glm::vec3(15.0f));
+  ASSERT_TRUE(volume);
+  // The rooms behind the walls that the camera sees are in it, too
+  EXPECT_TRUE(glm::all(glm::lessThan(volume->centre - 0.5f * volume->size, low + 0.5f)));
+  EXPECT_TRUE(glm::all(glm::greaterThan(volume->centre + 0.5f * volume->size, high - 0.5f)));
+  EXPECT_LT(volume->size.x / static_cast<float>(volume->probe_count.x - 1), 2.0f);
+  // Where the grid is less coarse, it is enough
+  EXPECT_FALSE(near_volume(world, look_at({9, 3, 21}, {0, 2, 0}, 0.9f), glm::vec3(5.0f)));
+}
+
 TEST(NearVolume, IsNotThereWhereTheGridHasCellsEnough) {
   const Scene scene = room(false);
   const World world(scene);

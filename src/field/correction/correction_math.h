@@ -10,7 +10,7 @@
 #define LAMBENT_FIELD_CORRECTION_CORRECTION_MATH_H
 
 #include "field/probes/probe_grid.h"
-#include "shared/random.h"
+#include "shared/place_hash.h"
 
 LAMBENT_BEGIN
 
@@ -125,19 +125,10 @@ LAMBENT_FN vec3 correction_coords(ProbeGrid grid, vec3 position_ws) {
   return clamp(coords, vec3(-kMaxCorrectionCoord), vec3(kMaxCorrectionCoord));
 }
 
-// Lookups of which only the mean matters read a single cell, which a hash of their position picks.
-// A finest cell has kPickSteps parts along each axis, and all points in a part pick the same cell,
-// so that the pick does not depend on how a backend rounds. kPickShift moves the borders of the
-// parts away from round coordinates, at which surfaces often are.
-const float kPickSteps = 64.0f;
-const float kPickShift = 0.37f;
-
-/// A random point of the unit cube, from a hash of a point in space. It picks a cell.
+/// A random point of the unit cube that belongs to the part of a finest cell around a point. It
+/// picks a cell for lookups of which only the mean matters.
 LAMBENT_FN vec3 correction_pick(ProbeGrid grid, vec3 position_ws) {
-  vec3 part = floor(correction_coords(grid, position_ws) * kPickSteps + vec3(kPickShift));
-  uvec3 mixed =
-      hash_pcg3d(uvec3(floatBitsToUint(part.x), floatBitsToUint(part.y), floatBitsToUint(part.z)));
-  return vec3(uniform_from_bits(mixed.x), uniform_from_bits(mixed.y), uniform_from_bits(mixed.z));
+  return hash_of_place(correction_coords(grid, position_ws));
 }
 
 /// The cell that `pick` picks around a point, which is given in cells of the same level.

@@ -2,6 +2,7 @@
 #include "raytracing/vulkan/device_scene.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "raytracing/mirrors/find_mirrors.h"
 #include "raytracing/vulkan/mesh_layout.h"
@@ -181,6 +182,20 @@ void DeviceScene::update_lights(const EmissiveTriangles& emissive, const LightTr
   asked_.set(device_, lights.asked(), "lights asked");
   light_tree_.set(device_, lights.nodes(), "light tree");
   light_groups_.set(device_, lights.groups().nodes(), "light groups");
+  upload_light_visibility(lights.visibility());
+}
+
+void DeviceScene::update_light_visibility(const Scene& scene, const LightVisibility& visibility) {
+  upload_light_visibility(visibility);
+  update_record(scene.environment);
+}
+
+void DeviceScene::upload_light_visibility(const LightVisibility& visibility) {
+  visibility_grid_ = visibility.grid();
+  visibility_rows_.set(device_, visibility.rows(), "rows of visibility");
+  std::vector<std::uint32_t> weights(visibility.weights().size() / sizeof(std::uint32_t));
+  std::memcpy(weights.data(), visibility.weights().data(), visibility.weights().size());
+  visibility_weights_.set(device_, std::move(weights), "visibility of lights");
 }
 
 void DeviceScene::update_instances(const Scene& scene) {
@@ -228,6 +243,9 @@ void DeviceScene::update_record(const Environment& environment) {
   record.emitters.address = emitters_.address();
   record.light_tree.address = light_tree_.address();
   record.light_groups.address = light_groups_.address();
+  record.visibility_rows.address = visibility_rows_.address();
+  record.visibility_weights.address = visibility_weights_.address();
+  record.visibility_grid = visibility_grid_;
   record.environment.map.texels.address = sky_map_.address();
   record.asked_count = enumerated_lights_;
   record.emitter_count = emitter_count_;
@@ -246,7 +264,8 @@ void DeviceScene::update_record(const Environment& environment) {
 std::size_t DeviceScene::bytes() const {
   std::size_t sum = sky_map_.bytes() + bright_sky_.bytes() + materials_.bytes() + meshes_.bytes() +
                     instances_.bytes() + lights_.bytes() + emitters_.bytes() + asked_.bytes() +
-                    light_tree_.bytes() + light_groups_.bytes() + record_.bytes();
+                    light_tree_.bytes() + light_groups_.bytes() + visibility_rows_.bytes() +
+                    visibility_weights_.bytes() + record_.bytes();
   for (const MeshData& data : mesh_data_) sum += data.bytes;
   for (const TextureData& data : texture_data_) sum += data.texture.bytes();
   return sum;

@@ -12,6 +12,7 @@
 
 #include "lambent/scene.h"
 #include "raytracing/vulkan/scene_records.h"
+#include "scene/light_tree/light_visibility.h"
 #include "vulkan/buffer.h"
 #include "vulkan/device.h"
 #include "vulkan/texture.h"
@@ -68,6 +69,9 @@ class DeviceScene {
   /// buffers recorded before become invalid. Throws as the constructor does.
   void update(const Scene& scene, const EmissiveTriangles& emissive, const LightTree& lights);
 
+  /// Replaces the table of the lights' visibility, under the same conditions.
+  void update_light_visibility(const Scene& scene, const LightVisibility& visibility);
+
   /// The scene's address for kernels. It does not change in updates.
   SceneArray address() const { return {record_.address()}; }
   /// The textures that kernels which read them need bound (Recorder::bind_textures).
@@ -113,6 +117,7 @@ class DeviceScene {
   void update_materials(const Scene& scene);
   void update_meshes(const Scene& scene);
   void update_lights(const EmissiveTriangles& emissive, const LightTree& lights);
+  void upload_light_visibility(const LightVisibility& visibility);
   void update_instances(const Scene& scene);
   void update_sky(const Environment& environment);
   void update_record(const Environment& environment);
@@ -135,6 +140,8 @@ class DeviceScene {
   DeviceTable<EmitterRecord> emitters_;
   DeviceTable<std::uint32_t> asked_;
   DeviceTable<LightTreeNode> light_tree_, light_groups_;
+  LightVisibilityGrid visibility_grid_{};
+  DeviceTable<std::uint32_t> visibility_rows_, visibility_weights_;
   DeviceTable<SceneRecord> record_;
 };
 

@@ -26,6 +26,11 @@ class DeviceWorld {
   /// the world; command buffers recorded before become invalid.
   void update(const SceneEdits& edits, const EmissiveTriangles& emissive, const LightTree& lights);
 
+  /// Replaces the table of the lights' visibility, under the same conditions.
+  void update_light_visibility(const LightVisibility& visibility) {
+    device_scene_.update_light_visibility(scene_, visibility);
+  }
+
   const vulkan::Device& device() const { return *device_; }
   std::shared_ptr<vulkan::Device> shared_device() const { return device_; }
   const DeviceScene& scene() const { return device_scene_; }

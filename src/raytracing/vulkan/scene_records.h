@@ -5,7 +5,7 @@
 
 #include "raytracing/ray_records.h"
 #include "scene/emissive_sample.h"
-#include "scene/light_tree/light_tree_math.h"
+#include "scene/light_tree/light_visibility_math.h"
 #include "scene/punctual_light.h"
 #include "scene/sky/bright_sky.h"
 
@@ -148,7 +148,10 @@ struct SceneRecord {
   UintArray asked;  ///< Indices of the lights that every point samples.
   EmitterArray emitters;
   LightTreeArray light_tree;
-  LightTreeArray light_groups;  ///< The same tree in groups; see LightGroups.
+  LightTreeArray light_groups;   ///< The same tree in groups; see LightGroups.
+  UintArray visibility_rows;     ///< See LightVisibility, also for the next two.
+  UintArray visibility_weights;  ///< Four weights in each.
+  LightVisibilityGrid visibility_grid;
   uint asked_count;
   uint emitter_count;
   uint light_tree_size;

@@ -40,6 +40,13 @@ void pick_in_groups(const GroupNumbers& tree, const vec3& position_ws, const vec
   kernel(tree, position_ws, normal_ws, lobe, count, picks);
 }
 
+void pick_below_in_groups(const GroupNumbers& tree, uint link, const vec3& position_ws,
+                          const vec3& normal_ws, const PickLobe& lobe, uint count,
+                          LightPicks& picks) {
+  static const auto kernel = LAMBENT_BEST_LEVEL(pick_below_in_groups);
+  kernel(tree, link, position_ws, normal_ws, lobe, count, picks);
+}
+
 PickLobe bounded_in_groups(const GroupNumbers& tree, const vec3& position_ws, const vec3& normal_ws,
                            const PickLobe& lobe) {
   static const auto kernel = LAMBENT_BEST_LEVEL(bounded_in_groups);

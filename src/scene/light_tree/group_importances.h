@@ -4,8 +4,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
-#include "scene/light_tree/light_tree_math.h"
+#include "scene/light_tree/light_visibility_math.h"
 
 namespace lambent {
 
@@ -22,17 +23,23 @@ void store_in_group(const LightTreeNode& node, std::size_t child, float* group);
 void group_importances(const float* group, const vec3& position_ws, const vec3& normal_ws,
                        const PickLobe& lobe, float* importances);
 
-/// The groups of a tree, kGroupFloats each.
+/// The groups of a tree, kGroupFloats each, as they are seen from a surface.
 struct GroupNumbers {
   const float* first;
   uint count;
+  /// Weights of the visibility of the nodes of the first kGroupsWithVisibility groups; null: 1.
+  const std::uint8_t* weights = nullptr;
 
   const float* at(uint group) const { return first + group * kGroupFloats; }
 };
 
-/// pick_lights() and bounded_lobe() of light_tree.inl.h; the same bits on all instruction sets.
+/// pick_lights(), pick_below() and bounded_lobe() of light_tree.inl.h; the same bits on all
+/// instruction sets.
 void pick_in_groups(const GroupNumbers& tree, const vec3& position_ws, const vec3& normal_ws,
                     const PickLobe& lobe, uint count, LightPicks& picks);
+void pick_below_in_groups(const GroupNumbers& tree, uint link, const vec3& position_ws,
+                          const vec3& normal_ws, const PickLobe& lobe, uint count,
+                          LightPicks& picks);
 PickLobe bounded_in_groups(const GroupNumbers& tree, const vec3& position_ws, const vec3& normal_ws,
                            const PickLobe& lobe);
 

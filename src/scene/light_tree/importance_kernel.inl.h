@@ -56,6 +56,12 @@ LAMBENT_FORCE_INLINE void group_importances(const GroupNumbers& tree, uint group
                                             const PickLobe& lobe, float* importances) {
   importances_in_group(tree.at(group), position_ws, normal_ws, lobe, importances);
 }
+LAMBENT_FORCE_INLINE bool knows_visibility(const GroupNumbers& tree, uint group) {
+  return tree.weights != nullptr && group < kGroupsWithVisibility;
+}
+LAMBENT_FORCE_INLINE float fetch_visibility(const GroupNumbers& tree, uint group, uint child) {
+  return visibility_weight(tree.weights[group * kLightGroupSize + child]);
+}
 
 #include "scene/light_tree/light_tree.inl.h"
 
@@ -64,6 +70,14 @@ __attribute__((flatten)) static void pick_in_groups(const GroupNumbers& tree,
                                                     const PickLobe& lobe, uint count,
                                                     LightPicks& picks) {
   pick_lights(tree, position_ws, normal_ws, lobe, count, picks);
+}
+
+__attribute__((flatten)) static void pick_below_in_groups(const GroupNumbers& tree, uint link,
+                                                          const vec3& position_ws,
+                                                          const vec3& normal_ws,
+                                                          const PickLobe& lobe, uint count,
+                                                          LightPicks& picks) {
+  pick_below(tree, link, position_ws, normal_ws, lobe, count, picks);
 }
 
 __attribute__((flatten)) static PickLobe bounded_in_groups(const GroupNumbers& tree,

@@ -121,6 +121,7 @@ void LightTree::update(const Scene& scene, const EmissiveTriangles& emissive) {
     if (cost() <= kWornOut * cost_when_built_) return;
   }
   build(emissive);
+  visibility_ = {};
   fit(emissive, true);
   cost_when_built_ = cost();
 }
@@ -222,26 +223,42 @@ double LightTree::cost() const {
   return sum;
 }
 
+GroupNumbers LightTree::seen_from(const glm::vec3& position_ws, const glm::vec3& normal_ws) const {
+  GroupNumbers groups = groups_.all_numbers();
+  groups.weights = visibility_.at(position_ws, normal_ws);
+  return groups;
+}
+
 PickLobe LightTree::bounded(const glm::vec3& position_ws, const glm::vec3& normal_ws,
                             const PickLobe& lobe) const {
-  return bounded_in_groups(groups_.all_numbers(), position_ws, normal_ws, lobe);
+  return bounded_in_groups(seen_from(position_ws, normal_ws), position_ws, normal_ws, lobe);
 }
 
 LightPick LightTree::pick(const glm::vec3& position_ws, const glm::vec3& normal_ws,
                           const PickLobe& lobe, float u) const {
   LightPicks picks;
   picks.at[0].rest = u;
-  pick_in_groups(groups_.all_numbers(), position_ws, normal_ws, lobe, 1, picks);
+  pick_in_groups(seen_from(position_ws, normal_ws), position_ws, normal_ws, lobe, 1, picks);
   return picks.at[0];
 }
 
 void LightTree::pick(const glm::vec3& position_ws, const glm::vec3& normal_ws, const PickLobe& lobe,
                      std::uint32_t count, LightPicks& picks) const {
-  pick_in_groups(groups_.all_numbers(), position_ws, normal_ws, lobe, count, picks);
+  pick_in_groups(seen_from(position_ws, normal_ws), position_ws, normal_ws, lobe, count, picks);
+}
+
+LightPick LightTree::pick_below(std::uint32_t link, const glm::vec3& position_ws,
+                                const glm::vec3& normal_ws, float u) const {
+  LightPicks picks;
+  picks.at[0].rest = u;
+  pick_below_in_groups(groups_.all_numbers(), link, position_ws, normal_ws, no_pick_lobe(), 1,
+                       picks);
+  return picks.at[0];
 }
 
 float LightTree::probability(std::uint32_t light, const glm::vec3& position_ws,
                              const glm::vec3& normal_ws, const PickLobe& lobe) const {
+  const std::uint8_t* weights = visibility_.at(position_ws, normal_ws);
   float probability = 1.0f;
   for (std::uint32_t node = leaves_[light];; node = parents_[node]) {
     const std::uint32_t place = groups_.place_of(node);
@@ -249,7 +266,13 @@ float LightTree::probability(std::uint32_t light, const glm::vec3& position_ws,
       float importances[kLightGroupSize], sum = 0.0f;
       lambent::group_importances(groups_.numbers(place / kLightGroupSize), position_ws, normal_ws,
                                  lobe, importances);
-      for (const float importance : importances) sum += importance;
+      const std::uint32_t group = place / kLightGroupSize;
+      for (std::uint32_t k = 0; k < kLightGroupSize; ++k) {
+        if (weights != nullptr && group < kGroupsWithVisibility) {
+          importances[k] *= visibility_weight(weights[group * kLightGroupSize + k]);
+        }
+        sum += importances[k];
+      }
       const float importance = importances[place % kLightGroupSize];
       if (!(importance > 0.0f)) return 0.0f;
       probability *= importance / sum;

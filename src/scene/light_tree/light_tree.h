@@ -10,6 +10,7 @@
 #include "scene/light_sampling.h"
 #include "scene/light_tree/light_groups.h"
 #include "scene/light_tree/light_tree_math.h"
+#include "scene/light_tree/light_visibility.h"
 
 namespace lambent {
 
@@ -39,9 +40,15 @@ class LightTree {
   /// Node 0 is the root; empty: nothing is in the tree. A leaf's light is the index of one of
   /// EmissiveTriangles::entries() or, from their number on, that of one of the lights above.
   const std::vector<LightTreeNode>& nodes() const { return nodes_; }
+  /// Whether more than one light is in the tree.
+  bool has_choice() const { return nodes_.size() > 1; }
 
   /// The nodes in groups, from which lights are picked.
   const LightGroups& groups() const { return groups_; }
+
+  /// What is known of the lights' visibility, by which they are picked; empty after a build.
+  const LightVisibility& visibility() const { return visibility_; }
+  void set_visibility(LightVisibility visibility) { visibility_ = std::move(visibility); }
 
   /// Bounds a lobe for a point, as the functions below require: see bounded_lobe in
   /// light_tree.inl.h.
@@ -55,6 +62,10 @@ class LightTree {
   /// Picks several lights, at most kMostPicks, for increasing uniform numbers in LightPick::rest.
   void pick(const glm::vec3& position_ws, const glm::vec3& normal_ws, const PickLobe& lobe,
             std::uint32_t count, LightPicks& picks) const;
+
+  /// Picks a light below a link of the groups, as the others do.
+  LightPick pick_below(std::uint32_t link, const glm::vec3& position_ws, const glm::vec3& normal_ws,
+                       float u) const;
 
   /// The probability with which `pick` finds a light of the tree.
   float probability(std::uint32_t light, const glm::vec3& position_ws, const glm::vec3& normal_ws,
@@ -80,6 +91,7 @@ class LightTree {
   /// `is_new`: the tree was built.
   void fit(const EmissiveTriangles& emissive, bool is_new);
   double cost() const;
+  GroupNumbers seen_from(const glm::vec3& position_ws, const glm::vec3& normal_ws) const;
 
   std::vector<LightRecord> lights_;
   std::vector<std::uint32_t> asked_, drawn_;  // of the lights
@@ -90,6 +102,7 @@ class LightTree {
   double cost_when_built_ = 0.0;
   int builds_ = 0;
   LightGroups groups_;
+  LightVisibility visibility_;
 };
 
 }  // namespace lambent

@@ -38,6 +38,7 @@ struct LightPick {
   uint light;
   float probability;  ///< Of picking it; 0: none was picked, since none is visible.
   float rest;         ///< Uniform, 0 to 1.
+  float visibility;   ///< Weight of the smallest of its clusters that has one; else 1.
 };
 
 // Number of picks that traverse the tree together.
@@ -45,6 +46,11 @@ const uint kMostPicks = 8u;
 
 struct LightPicks {
   LightPick at[kMostPicks];
+};
+
+/// The importances of the nodes of a group.
+struct NodeImportances {
+  float of[kLightGroupSize];
 };
 
 /// Lights closer than this count as being this far away [m^2]: inverse squares stay finite.

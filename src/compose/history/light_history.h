@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compose/filter_frame.h"
-#include "compose/glossy/lobe_history.h"
+#include "compose/history/lobe_history.h"
 
 namespace lambent {
 
@@ -26,7 +26,8 @@ struct LightHistory {
 
 /// Averages the light that is to be filtered with that of previous frames, where the same surface
 /// was seen, or lobes showed the same part of the scene. Light through glass is left alone. Stores
-/// the average for the next frame. `last` is read where it is valid and request.light_continues;
+/// the average for the next frame. `last` is read where it is valid and request.light_continues or
+/// request.moved;
 /// `next` is written.
 void average_light(const FrameRequest& request, const LightHistory& last, FilteredPixels& pixels,
                    LightHistory& next);

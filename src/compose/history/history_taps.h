@@ -30,7 +30,7 @@ struct SurfacesBefore {
 };
 
 /// Motion of a point that is where it was in the previous frame, by the camera alone. Averages are
-/// kept only while that holds for the whole world. A pixel's motion vector is no help: that of a
+/// kept only where that holds (MovedParts). A pixel's motion vector is no help: that of a
 /// blended surface belongs to what is behind it.
 inline PixelMotion camera_motion(const MotionViews& views, const vec3& position_ws) {
   return motion_between(image_point(views.now, position_ws),

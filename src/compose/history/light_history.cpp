@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compose/light_history.h"
+#include "compose/history/light_history.h"
 
 #include "compose/frame_tasks.h"
 #include "compose/motion.h"
@@ -81,8 +81,10 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
   const FrameAveraging by{
       {settings.width, settings.height},
       motion_views(request.camera, settings.width, settings.height, request.before),
-      static_cast<float>(settings.averaged_frames)};
-  const bool continues = request.light_continues && has_same_light(last, pixels);
+      static_cast<float>(settings.averaged_frames),
+      request.moved};
+  const bool continues =
+      (request.light_continues || by.moved != nullptr) && has_same_light(last, pixels);
   const CameraRecord& camera = by.views.now;
   shape(pixels, next);
   parallel_chunks(pixels.depths.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
@@ -104,9 +106,15 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
             depth_tolerance(depth, pixel_width_at_depth(camera, depth), dot(normal_ws, to_viewer)),
             normal_ws);
       }
-      const bool seen_before = is_history(taps);
-      const float frames =
-          seen_before ? averaged_frames(weighted_sum(last.frames, taps), by.most_frames) : 1.0f;
+      float frames = 1.0f;
+      if (is_history(taps)) {
+        float most = by.most_frames;
+        if (by.moved != nullptr) {
+          most = std::min(most, by.moved->frames_of_surface(pixels.positions_ws[i],
+                                                            pixels.geometric_normals_ws[i]));
+        }
+        frames = averaged_frames(weighted_sum(last.frames, taps), most);
+      }
       next.frames[i] = frames;
       if (!pixels.gathered.empty()) {
         vec3 difference = pixels.gathered[i] - pixels.looked_up[i];

@@ -9,7 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "compose/history_taps.h"
+#include "compose/history/history_taps.h"
+#include "compose/history/moved_parts.h"
 #include "denoise/atrous_pass.h"
 #include "raytracing/motion/motion_math.h"
 
@@ -32,16 +33,17 @@ struct LobesSeen {
 
 /// How frames are averaged.
 struct FrameAveraging {
-  ivec2 size;         ///< Of the picture [pixels].
-  MotionViews views;  ///< Of this frame and of the previous one.
-  float most_frames;  ///< A new frame counts at least as one of so many, >= 1.
+  ivec2 size;                         ///< Of the picture [pixels].
+  MotionViews views;                  ///< Of this frame and of the previous one.
+  float most_frames;                  ///< A new frame counts at least as one of so many, >= 1.
+  const MovedParts* moved = nullptr;  ///< See FrameRequest.
 };
 
 /// Averages reflected light with that of the previous frame, `last`, and stores the average in
-/// `next`. The world must not have changed in between. Each pixel's lobe is looked for where its
-/// surface was, and where the camera saw, in the surface's plane, what the lobe shows; the place
-/// whose lobes agree better is used. `before`: the surfaces of the previous frame; empty: there is
-/// no history.
+/// `next`. The world must not have changed in between but by `by.moved`. Each pixel's lobe is
+/// looked for where its surface was, and where the camera saw, in the surface's plane, what the
+/// lobe shows; the place whose lobes agree better is used. `before`: the surfaces of the previous
+/// frame; empty: there is no history.
 void average_reflected_light(const FrameAveraging& by, const SurfacesSeen& now,
                              const SurfacesSeen& before, const LobeHistory& last,
                              const LobesSeen& lobes, LobeHistory& next);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compose/glossy/lobe_history.h"
+#include "compose/history/lobe_history.h"
 
 #include <algorithm>
 
@@ -153,10 +153,15 @@ void average_reflected_light(const FrameAveraging& by, const SurfacesSeen& now,
                                          lobes.alphas[i], lobes.inverse_distances[i]);
       LobeTaps found;
       if (has_history) found = finder.find(i, lobes.to_viewer_ws[i], guide);
-      const float frames =
-          found.share > 0.0f
-              ? averaged_frames(weighted_sum(last.frames, found.taps), by.most_frames)
-              : 1.0f;
+      float frames = 1.0f;
+      if (found.share > 0.0f) {
+        float most = by.most_frames;
+        if (by.moved != nullptr) {
+          const ReflectingLobe lobe{guide.mirror_ws, lobes.alphas[i], lobes.inverse_distances[i]};
+          most = std::min(most, by.moved->frames_of_lobe(now.positions_ws[i], lobe));
+        }
+        frames = averaged_frames(weighted_sum(last.frames, found.taps), most);
+      }
       average(last.light, found, frames, lobes.light[i]);
       if (!lobes.excess.empty()) average(last.excess, found, frames, lobes.excess[i]);
       next.lobes[i] = guide;

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compose/history/moved_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "raytracing/raytracer.h"
+#include "raytracing/world_access.h"
+#include "scene/light_tree/light_tree.h"
+#include "shared/constants.h"
+
+namespace lambent {
+namespace {
+
+// Frames over which light is averaged beside motion: where it changes far from what moves, in the
+// light of a shadow, a third of the old light is left after as many frames.
+constexpr float kMaxFrames = 8.0f;
+// With more moving parts than this, light is taken to change everywhere: each costs time at every
+// pixel.
+constexpr std::size_t kMaxParts = 32;
+// A GGX lobe reflects nearly all of its light within this many times its width of the mirror
+// direction [rad].
+constexpr float kLobeReach = 3.0f;
+
+/// Angle between a ball's middle and its edge from a distance; pi from inside [rad].
+float angle_of(float radius, float distance) {
+  return radius < distance ? std::asin(radius / distance) : kPi;
+}
+
+/// Angle between two directions of any length [rad].
+float angle_between(const vec3& a, const vec3& b) {
+  const float scale = std::sqrt(dot(a, a) * dot(b, b));
+  return scale > 0.0f ? std::acos(std::clamp(dot(a, b) / scale, -1.0f, 1.0f)) : 0.0f;
+}
+
+}  // namespace
+
+bool relights(const WorldChanges& edit) {
+  return !edit.lights.empty() || !edit.materials.empty() || edit.emission || edit.environment;
+}
+
+MovedParts::MovedParts(std::span<const Bounds> moved, std::span<const Bounds> emitters)
+    : moved_(around(moved)), emitters_(around(emitters)) {}
+
+std::vector<MovedParts::Ball> MovedParts::around(std::span<const Bounds> boxes) {
+  std::vector<Ball> balls;
+  for (const Bounds& box : boxes) {
+    if (!box.empty()) {
+      balls.push_back({0.5f * box.min + 0.5f * box.max, 0.5f * length(box.max - box.min)});
+    }
+  }
+  return balls;
+}
+
+float MovedParts::frames_around(const vec3& position_ws, const vec3& normal_ws) const {
+  // Old light may be wrong by the share of the point's sphere that the parts fill, about
+  float share = 0.0f;
+  for (const Ball& part : moved_) {
+    const vec3 way = part.center_ws - position_ws;
+    // What is below the horizon sends no light
+    if (dot(way, normal_ws) < -part.radius) continue;
+    share += part.radius * part.radius / dot(way, way);
+  }
+  return 1.0f / std::clamp(share, 1.0f / kMaxFrames, 1.0f);
+}
+
+bool MovedParts::may_shade(const Ball& part, const vec3& position_ws) const {
+  const vec3 to_part = part.center_ws - position_ws;
+  const float part_distance = length(to_part);
+  return std::any_of(emitters_.begin(), emitters_.end(), [&](const Ball& lights) {
+    const vec3 to_lights = lights.center_ws - position_ws;
+    const float distance = length(to_lights);
+    if (part_distance - part.radius > distance + lights.radius) return false;
+    return angle_between(to_part, to_lights) <=
+           angle_of(part.radius, part_distance) + angle_of(lights.radius, distance);
+  });
+}
+
+float MovedParts::frames_of_surface(const vec3& position_ws, const vec3& normal_ws) const {
+  const bool shaded = std::any_of(moved_.begin(), moved_.end(), [&](const Ball& part) {
+    return dot(part.center_ws - position_ws, normal_ws) >= -part.radius &&
+           may_shade(part, position_ws);
+  });
+  return shaded ? 1.0f : frames_around(position_ws, normal_ws);
+}
+
+float MovedParts::frames_of_lobe(const vec3& position_ws, const ReflectingLobe& lobe) const {
+  const float reach = kLobeReach * lobe.alpha;
+  const float distance =
+      lobe.inverse_distance > 0.0f ? 1.0f / lobe.inverse_distance : kInfiniteDistance;
+  for (const Ball& part : moved_) {
+    const vec3 way = part.center_ws - position_ws;
+    const float part_distance = length(way);
+    if (part_distance - part.radius > distance) continue;
+    if (angle_between(way, lobe.mirror_ws) <= reach + angle_of(part.radius, part_distance)) {
+      return 1.0f;
+    }
+  }
+  if (distance == kInfiniteDistance) return kMaxFrames;
+  return frames_around(position_ws + distance * lobe.mirror_ws, vec3(0.0f));
+}
+
+std::optional<MovedParts> moved_since(const World& world, std::uint64_t revision) {
+  const auto edits = world.changes_since(revision);
+  if (!edits || std::any_of(edits->begin(), edits->end(), relights)) return std::nullopt;
+  std::vector<Bounds> moved;
+  for (const WorldChanges& edit : *edits) {
+    moved.insert(moved.end(), edit.moved.begin(), edit.moved.end());
+  }
+  if (moved.size() > kMaxParts) return std::nullopt;
+  std::vector<Bounds> emitters;
+  const std::vector<LightTreeNode>& groups = lights_of(world).groups().nodes();
+  for (std::size_t i = 0; i < std::min<std::size_t>(groups.size(), kLightGroupSize); ++i) {
+    if (groups[i].intensity <= 0.0f) continue;
+    emitters.push_back(
+        {groups[i].center_ws - groups[i].half_size, groups[i].center_ws + groups[i].half_size});
+  }
+  return MovedParts(moved, emitters);
+}
+
+}  // namespace lambent

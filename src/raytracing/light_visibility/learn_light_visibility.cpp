@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raytracing/light_visibility/learn_light_visibility.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/parallel.h"
+#include "raytracing/direct_light.h"
+#include "raytracing/surface.h"
+#include "raytracing/world_access.h"
+#include "shared/sampling.h"
+
+namespace lambent {
+namespace {
+
+// Lines through the scene in a wave, and surfaces that a line meets at most.
+constexpr std::uint32_t kLinesPerWave = 1024, kMaxCrossings = 12;
+// Lights are tested by at most so many waves, and as many as are needed for about this many tests:
+// for a new world, and after an edit, which should not take long. With four times as many,
+// noise in two rooms with a lamp each is a tenth less.
+constexpr std::uint32_t kMaxWaves = 64;
+constexpr std::size_t kTests = 1 << 19, kTestsOfEdit = 1 << 16;
+// A table is renewed by this many lines, and fades at each of so many renewals, so that it has
+// forgotten half of what it knew after that many.
+constexpr std::uint32_t kLinesPerRenewal = 256, kRenewalsPerFading = 16;
+// Lines that are traced together, at least.
+constexpr std::size_t kLinesPerChunk = 32;
+// Clusters that get a smaller share of a point's picks are not tested from it.
+constexpr float kMinTestedShare = 1.0f / 256.0f;
+// The table reaches as far around the lights as the diagonal of the box around them, times this.
+constexpr float kReach = 2.0f;
+// Seed of all random numbers in this file.
+constexpr std::uint32_t kSeed = 5;
+
+/// What one chunk of lines finds.
+struct LineTests {
+  std::vector<VisibilityTest> tests;
+  std::vector<std::size_t> rays;  // of the tests, among these
+  std::vector<Ray> shadow_rays;
+
+  /// Adds a test by the last of the rays.
+  void test(std::uint32_t index, std::uint32_t entry) {
+    tests.push_back({index, static_cast<std::uint16_t>(entry), false});
+    rays.push_back(shadow_rays.size() - 1);
+  }
+};
+
+/// What tests read.
+struct Lights {
+  const LightTree& tree;
+  const EmissiveTriangles& emissive;
+};
+
+/// A random point of a light as seen from a surface, of any brightness; no_candidate() where the
+/// light does not shine there.
+LightCandidate towards(const Lights& lights, std::uint32_t light, const LitPoint& point,
+                       const vec2& u) {
+  const auto emitters = static_cast<std::uint32_t>(lights.emissive.size());
+  if (light >= emitters) {
+    const PunctualSample seen =
+        sample_punctual(lights.tree.lights()[light - emitters], point.position_ws);
+    if (seen.irradiance == vec3(0.0f)) return no_candidate();
+    return {seen.to_light, seen.distance, vec3(1.0f), 0u};
+  }
+  const EmitterRecord& emitter = lights.emissive.entries()[light];
+  const TrianglePointSeen seen = draw_on_triangle(emitter.corner_ws - point.position_ws,
+                                                  emitter.edge1_ws, emitter.edge2_ws, u);
+  if (seen.pdf <= 0.0f) return no_candidate();
+  return {seen.to_point, seen.distance, vec3(1.0f), 1u};
+}
+
+/// The shares of picks that the nodes of a group get at a point.
+struct Shares {
+  Shares(const Lights& lights, std::uint32_t group, const LitPoint& point) {
+    group_importances(lights.tree.groups().numbers(group), point.position_ws, point.normal_ws,
+                      no_pick_lobe(), of);
+    float sum = 0.0f;
+    for (const float importance : of) sum += importance;
+    for (float& share : of) share = sum > 0.0f ? share / sum : 0.0f;
+  }
+  float largest() const { return *std::max_element(of, of + kLightGroupSize); }
+  float of[kLightGroupSize];
+};
+
+/// Queues tests of all clusters that a point would pick.
+class PointTests {
+ public:
+  PointTests(const Lights& lights, const LitPoint& point, std::uint32_t index, RandomStream& random,
+             LineTests& into)
+      : lights_(lights), point_(point), index_(index), random_(random), into_(into) {}
+
+  void queue() {
+    const Shares shares(lights_, 0u, point_);
+    for (uint child = 0; child < kLightGroupSize; ++child) {
+      if (shares.of[child] < kMinTestedShare) continue;
+      const uint link = link_in_group(lights_.tree.groups().numbers(0u), child);
+      if ((link & kLightTreeLeaf) != 0u) {
+        queue_light(link, child);
+      } else {
+        queue_group(link, child, shares.of[child]);
+      }
+    }
+  }
+
+ private:
+  /// Tests the nodes of the group below node `above` of the root's group. Each of these tests also
+  /// counts for that node, with a probability in proportion to the share of its own.
+  void queue_group(uint group, uint above, float share_above) {
+    const Shares shares(lights_, group, point_);
+    const float largest = shares.largest();
+    for (uint child = 0; child < kLightGroupSize; ++child) {
+      if (share_above * shares.of[child] < kMinTestedShare) continue;
+      const bool tested = queue_light(link_in_group(lights_.tree.groups().numbers(group), child),
+                                      group * kLightGroupSize + child);
+      const bool counts = next_uniform(random_) * largest < shares.of[child];
+      if (tested && counts) into_.test(index_, above);
+    }
+  }
+
+  /// Tests a random light below a link, for the row's entry `entry`. Returns whether there is one
+  /// that shines on the point if nothing is in the way.
+  bool queue_light(uint link, uint entry) {
+    const LightPick pick =
+        lights_.tree.pick_below(link, point_.position_ws, point_.normal_ws, next_uniform(random_));
+    const vec2 u = next_uniform2(random_);
+    if (pick.probability <= 0.0f) return false;
+    const LightCandidate light = towards(lights_, pick.light, point_, u);
+    if (dot(point_.geometric_normal_ws, light.to_light) <= 0.0f) return false;
+    into_.shadow_rays.push_back(shadow_ray(point_.position_ws, point_.geometric_normal_ws, light));
+    into_.test(index_, entry);
+    return true;
+  }
+
+  const Lights& lights_;
+  const LitPoint& point_;
+  std::uint32_t index_;
+  RandomStream& random_;
+  LineTests& into_;
+};
+
+/// A ray with a random direction from a random point of the grid, as long as the grid's diagonal.
+Ray random_line(const LightVisibilityGrid& grid, RandomStream& random) {
+  const vec3 size = vec3(grid.size) / grid.cells_per_metre;
+  const float x = next_uniform(random), y = next_uniform(random), z = next_uniform(random);
+  const vec3 direction = sample_uniform_sphere(next_uniform2(random));
+  return {grid.min_ws + size * vec3(x, y, z), 0.0f, direction, length(size)};
+}
+
+/// Lines that are followed together.
+struct Lines {
+  std::vector<Ray> rays;  // from the surfaces that they met last
+  std::vector<RandomStream> random;
+  std::vector<Hit> hits;
+};
+
+/// Moves lines on to the next surfaces, queues the tests of these, and drops lines that meet none.
+void cross_surfaces(const World& world, const Lights& lights, const LightVisibilityGrid& grid,
+                    Lines& lines, LineTests& into) {
+  lines.hits.resize(lines.rays.size());
+  tracer_of(world).closest_hits(lines.rays, lines.hits);
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < lines.rays.size(); ++i) {
+    const Hit& hit = lines.hits[i];
+    if (hit.missed()) continue;
+    Ray ray = lines.rays[i];
+    RandomStream random = lines.random[i];
+    const Surface surface = surface_at(world.scene(), ray, hit);
+    const LitPoint point{surface.position_ws, surface.normal_ws, surface.geometric_normal_ws};
+    const uint index =
+        visibility_index(grid, visibility_coords(grid, point.position_ws, point.normal_ws),
+                         facing_side(point.normal_ws));
+    if (index != kNoVisibilityRow) PointTests(lights, point, index, random, into).queue();
+    ray.origin = offset_ray_origin(surface.position_ws, -surface.geometric_normal_ws);
+    ray.t_max -= hit.distance;
+    lines.rays[left] = ray;
+    lines.random[left++] = random;
+  }
+  lines.rays.resize(left);
+  lines.random.resize(left);
+}
+
+/// Adds the tests of `count` lines to a table, and returns their number. `wave` is part of the seed
+/// of random numbers.
+std::size_t test_lines(const World& world, std::uint32_t wave, std::uint32_t count,
+                       LightVisibility& visibility) {
+  const Lights lights{lights_of(world), emissive_of(world)};
+  const std::size_t chunk = batch_of(tracer_of(world), 1, kLinesPerChunk);
+  std::vector<LineTests> chunks((count + chunk - 1) / chunk);
+  parallel_chunks(count, chunk, [&](std::size_t begin, std::size_t end) {
+    Lines lines;
+    LineTests& found = chunks[begin / chunk];
+    for (std::size_t i = begin; i < end; ++i) {
+      RandomStream random = make_random_stream(static_cast<std::uint32_t>(i), wave, kSeed);
+      lines.rays.push_back(random_line(visibility.grid(), random));
+      lines.random.push_back(random);
+    }
+    for (std::uint32_t k = 0; k < kMaxCrossings && !lines.rays.empty(); ++k) {
+      cross_surfaces(world, lights, visibility.grid(), lines, found);
+    }
+    ShadowRays shadows;
+    shadows.trace(tracer_of(world), found.shadow_rays);
+    for (std::size_t i = 0; i < found.tests.size(); ++i) {
+      found.tests[i].visible = shadows.share(found.rays[i]) != vec3(0.0f);
+    }
+  });
+  std::size_t tests = 0;
+  for (const LineTests& some : chunks) {
+    visibility.add(some.tests);
+    tests += some.tests.size();
+  }
+  return tests;
+}
+
+/// The box that the table covers.
+Bounds covered(const World& world) {
+  const LightTreeNode& root = lights_of(world).nodes().front();
+  const Bounds all = world_bounds(world.scene());
+  const vec3 reach = root.half_size + vec3(2.0f * length(root.half_size) * kReach);
+  return {max(all.min, root.center_ws - reach), min(all.max, root.center_ws + reach)};
+}
+
+/// A new table, from about so many tests.
+LightVisibility learned(const World& world, std::size_t tests) {
+  const LightTree& tree = lights_of(world);
+  if (!tree.has_choice()) return {};
+  const Bounds box = covered(world);
+  if (box.empty()) return {};
+  const std::size_t groups = tree.groups().nodes().size() / kLightGroupSize;
+  LightVisibility visibility(box, static_cast<std::uint32_t>(groups));
+  std::size_t tested = 0;
+  for (std::uint32_t wave = 0; wave < kMaxWaves && tested < tests; ++wave) {
+    tested += test_lines(world, wave, kLinesPerWave, visibility);
+  }
+  visibility.weigh();
+  return visibility;
+}
+
+}  // namespace
+
+LightVisibility learn_light_visibility(const World& world) {
+  return learned(world, kTests);
+}
+
+LightVisibility follow_light_visibility(const World& world, LightVisibility before) {
+  if (before.empty()) return learned(world, kTestsOfEdit);
+  const auto round = static_cast<std::uint32_t>(world.revision());
+  if (round % kRenewalsPerFading == 0) before.fade();
+  test_lines(world, kMaxWaves + round, kLinesPerRenewal, before);
+  before.weigh();
+  return before;
+}
+
+}  // namespace lambent
