@@ -22,8 +22,8 @@ constexpr float kMinHitShare = 0.6f;
 // The box leaves out this share of the hits on either side of each axis: views through windows and
 // doors. Walls of a room take more.
 constexpr float kOutlierShare = 0.1f;
-// Where there is no such box, finer probes are put among this share of the surfaces that the camera
-// sees, the nearest ones: a house in its grounds.
+// In the open, finer probes are put among this share of the surfaces that the camera sees, the
+// nearest ones: a house in its grounds.
 constexpr float kNearbyShare = 0.75f;
 // Their box leaves out this share of them on either side of each axis.
 constexpr float kNearbyOutlierShare = 0.02f;
@@ -35,29 +35,29 @@ constexpr float kNearbyCells = 2.0f;
 // A grid with fewer cells than this along each side of the box cannot show how light varies there.
 constexpr float kMinCells = 4.0f;
 
-/// Places of surfaces around the camera; empty where it stands in the open.
-std::vector<glm::vec3> places_around(const World& world, const Camera& camera) {
-  const glm::vec3 eye(camera.world_from_view[3]);
-  const std::vector<Ray> rays = rays_around(eye, kSurroundRays);
-  const std::vector<Hit> hits = trace(world, rays);
+/// Places of surfaces that the camera sees.
+std::vector<glm::vec3> places_seen(const World& world, const Camera& camera) {
   std::vector<glm::vec3> places;
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (!hits[i].missed()) places.push_back(eye + hits[i].distance * rays[i].direction);
-  }
-  if (static_cast<float>(places.size()) < kMinHitShare * kSurroundRays) return {};
   for (const SeenPoint& seen : sample_view(world, camera).points) {
     places.push_back(seen.point.position_ws);
   }
   return places;
 }
 
-/// Places of the nearest surfaces that the camera sees: a share of them.
-std::vector<glm::vec3> places_nearby(const World& world, const Camera& camera) {
-  const glm::vec3 eye(camera.world_from_view[3]);
+/// Places of surfaces around the camera; empty where it stands in the open.
+std::vector<glm::vec3> places_around(const World& world, const glm::vec3& eye) {
+  const std::vector<Ray> rays = rays_around(eye, kSurroundRays);
+  const std::vector<Hit> hits = trace(world, rays);
   std::vector<glm::vec3> places;
-  for (const SeenPoint& seen : sample_view(world, camera).points) {
-    places.push_back(seen.point.position_ws);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!hits[i].missed()) places.push_back(eye + hits[i].distance * rays[i].direction);
   }
+  if (static_cast<float>(places.size()) < kMinHitShare * kSurroundRays) places.clear();
+  return places;
+}
+
+/// The nearest of some places.
+std::vector<glm::vec3> nearest(std::vector<glm::vec3> places, const glm::vec3& eye) {
   std::sort(places.begin(), places.end(), [&](const glm::vec3& a, const glm::vec3& b) {
     return glm::distance(a, eye) < glm::distance(b, eye);
   });
@@ -86,19 +86,21 @@ std::optional<ProbeVolume> near_volume(const World& world, const Camera& camera,
                                        const glm::vec3& spacing) {
   if (camera.orthographic) return std::nullopt;
   const glm::vec3 eye(camera.world_from_view[3]);
-  // Whether there is a box around places and the camera that is smaller than this along each side
-  Bounds box;
-  const auto fits = [&](const std::vector<glm::vec3>& places, float left_out, float cells) {
-    if (places.empty()) return false;
-    box = box_around(places, left_out);
-    box.add(eye);
-    return glm::all(glm::lessThan(box.max - box.min, cells * spacing));
-  };
-  if (!fits(places_around(world, camera), kOutlierShare, kMinCells)) {
-    if (!fits(places_nearby(world, camera), kNearbyOutlierShare, kNearbyCells)) return std::nullopt;
-    const glm::vec3 margin = kNearbyMargin * (box.max - box.min);
-    box = {box.min - margin, box.max + margin};
+  const std::vector<glm::vec3> seen = places_seen(world, camera);
+  std::vector<glm::vec3> places = places_around(world, eye);
+  const bool in_the_open = places.empty();
+  if (in_the_open) {
+    places = nearest(seen, eye);
+  } else {
+    places.insert(places.end(), seen.begin(), seen.end());
   }
+  if (places.empty()) return std::nullopt;
+  Bounds box = box_around(places, in_the_open ? kNearbyOutlierShare : kOutlierShare);
+  box.add(eye);
+  const glm::vec3 size = box.max - box.min;
+  const float most_cells = in_the_open ? kNearbyCells : kMinCells;
+  if (glm::any(glm::greaterThanEqual(size, most_cells * spacing))) return std::nullopt;
+  if (in_the_open) box = {box.min - kNearbyMargin * size, box.max + kNearbyMargin * size};
 
   const Expected<FieldGrid> grid = fit_grid({}, box);
   if (!grid) return std::nullopt;

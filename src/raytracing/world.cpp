@@ -99,6 +99,21 @@ void World::State::set_light_visibility(LightVisibility visibility) {
   upload_visibility(on_device.get(), *lights);
 }
 
+void World::State::follow_light_visibility(const World& world, const SceneEdits& edits,
+                                           int builds_before) {
+  if (lights->builds() != builds_before) {
+    set_light_visibility(learn_of_new_lights(world));
+    return;
+  }
+  const WorldChanges& changes = edits.changes;
+  const bool differs =
+      edits.geometry_differs || !changes.lights.empty() || !changes.materials.empty();
+  if (!differs || lights->visibility().empty()) return;
+  LightVisibility visibility = lights->visibility();
+  renew_light_visibility(world, visibility);
+  set_light_visibility(std::move(visibility));
+}
+
 World::World(const Scene& scene, std::shared_ptr<vulkan::Device> device) : scene_(&scene) {
   assert(validate(scene));
   state_ = std::make_unique<State>(scene, std::move(device));
@@ -118,6 +133,7 @@ Expected<WorldChanges> World::update() {
   SceneSnapshot now = take_snapshot(*scene_, &history.snapshot);
   SceneEdits edits = compare(history.snapshot, now);
   if (edits.emitters_differ) state_->emissive = std::make_unique<EmissiveTriangles>(*scene_);
+  const int builds = state_->lights->builds();
   if (edits.emitters_differ || !edits.changes.lights.empty()) {
     state_->lights->update(*scene_, *state_->emissive);
   }
@@ -132,10 +148,7 @@ Expected<WorldChanges> World::update() {
   edits.changes.revision = history.revision;
   if (!edits.changes.any()) return std::move(edits.changes);
   edits.changes.revision = ++history.revision;
-  const LightTree& lights = *state_->lights;
-  if (lights.has_choice() && (edits.geometry_differs || lights.visibility().empty())) {
-    state_->set_light_visibility(follow_light_visibility(*this, lights.visibility()));
-  }
+  state_->follow_light_visibility(*this, edits, builds);
   edits.changes.refit_ms = watch.lap();
   if (history.log.size() == kLogLength) history.log.pop_front();
   history.log.push_back(edits.changes);

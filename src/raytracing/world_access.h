@@ -14,6 +14,7 @@ class LightTree;
 class LightVisibility;
 class RayTracer;
 class SkyLevels;
+struct SceneEdits;
 struct ScenePose;
 
 struct World::State {
@@ -23,6 +24,8 @@ struct World::State {
 
   /// Picks lights by their visibility from now on.
   void set_light_visibility(LightVisibility visibility);
+  /// Follows edits to which all else was updated. `builds_before`: LightTree::builds() before.
+  void follow_light_visibility(const World& world, const SceneEdits& edits, int builds_before);
 
   struct History;
   std::unique_ptr<EmissiveTriangles> emissive;

@@ -132,6 +132,7 @@ TEST_F(ShadingTwin, DrawsFromManyLightsAsTheHostDoes) {
   Scene scene = test::many_lights(60);
   World world(scene);
   DeviceScene on_device(device(), scene, emissive_of(world), lights_of(world));
+  ASSERT_FALSE(lights_of(world).visibility().empty());  // which both draw by
   ShadeHitsSettings settings;
   settings.emissive_samples = 2;
   const auto expect_same = [&](const char* edit) {

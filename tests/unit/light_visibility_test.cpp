@@ -84,8 +84,11 @@ double picks_of_own_lamp(const World& world) {
 TEST(LightVisibility, WeighsByTheRootOfWhatArrived) {
   const LightVisibilityGrid empty = LightVisibility().grid();
   EXPECT_EQ(empty.cells_per_metre, 0.0f);
-  LightVisibility visibility({glm::vec3(0.0f), glm::vec3(1.0f)}, 2);
-  ASSERT_EQ(visibility.grid().row_length, 2 * kLightGroupSize);
+  const Scene scene = test::many_lights(20);
+  const World world(scene);
+  const LightGroups& groups = tree_of(world).groups();
+  LightVisibility visibility({glm::vec3(0.0f), glm::vec3(1.0f)}, groups);
+  ASSERT_EQ(visibility.grid().row_length, kGroupsWithVisibility * kLightGroupSize);
   const glm::vec3 place(0.51f, 0.0f, 0.51f), up(0.0f, 1.0f, 0.0f);
   const std::uint32_t index = visibility_index(
       visibility.grid(), visibility_coords(visibility.grid(), place, up), facing_side(up));
@@ -95,6 +98,8 @@ TEST(LightVisibility, WeighsByTheRootOfWhatArrived) {
     tests.push_back({index, 1, i < 25});
     tests.push_back({index, 9, true});
   }
+  // Of the group below the first node of the root's, that node alone was tested
+  ASSERT_EQ(groups.nodes()[0].link, 1u);
   visibility.add(tests);
   visibility.weigh();
   const std::uint8_t* weights = visibility.at(place, up);
@@ -104,12 +109,15 @@ TEST(LightVisibility, WeighsByTheRootOfWhatArrived) {
   EXPECT_NEAR(visibility_weight(weights[1]), 0.5f, 0.01f);
   EXPECT_EQ(weights[9], kWholeVisibility);
   EXPECT_EQ(weights[2], kWholeVisibility);  // not tested
+  EXPECT_EQ(weights[kLightGroupSize], weights[0]);
   // Surfaces that face elsewhere, points in the air and outside of the box are not known
   EXPECT_EQ(visibility.at(place, -up), nullptr);
   EXPECT_EQ(visibility.at(place, glm::vec3(0.0f)), nullptr);
   EXPECT_EQ(visibility.at(place + glm::vec3(2.0f), up), nullptr);
-  // After it faded, half as many tests say the opposite
+  // What fades is held to be the same, but counts for less beside new tests
   for (int i = 0; i < 8; ++i) visibility.fade();
+  visibility.weigh();
+  EXPECT_NEAR(visibility_weight(visibility.at(place, up)[1]), 0.5f, 0.1f);
   tests.assign(100, {index, 0, true});
   visibility.add(tests);
   visibility.weigh();
@@ -121,8 +129,8 @@ TEST(LightVisibility, LampsInOtherRoomsArePickedSeldom) {
   const World world(scene);
   ASSERT_FALSE(tree_of(world).visibility().empty());
   RandomStream random = make_random_stream(9u, 0u, 0u);
-  std::vector<LitPoint> points;
-  for (int i = 0; i < 16; ++i) points.push_back(floor_point(random));
+  std::vector<LitPoint> points(16);
+  for (LitPoint& point : points) point = floor_point(random);
   std::vector<Estimate> with, without;
   const double picks = picks_of_own_lamp(world);
   for (const LitPoint& point : points) with.push_back(estimate_at(world, point));
@@ -161,6 +169,37 @@ TEST(LightVisibility, FollowsAWallThatIsTakenAway) {
   EXPECT_NEAR(opened, unaware, 0.1 * unaware);
 }
 
+TEST(LightVisibility, FollowsAPointLightThatPassesAWall) {
+  // More lights than every point asks, all in the first room
+  Scene scene = two_lit_rooms(0.0f);
+  for (int i = 0; i < 20; ++i) {
+    scene.lights.push_back(
+        test::point_light(glm::vec3(1.0f), {-0.3f, 2.0f - 0.1f * static_cast<float>(i), 0.0f}));
+  }
+  World world(scene);
+  const auto picks_of_first = [&] {
+    RandomStream random = make_random_stream(5u, 0u, 1u);
+    double sum = 0.0;
+    const auto light = static_cast<std::uint32_t>(emissive_of(world).size());
+    for (int i = 0; i < 200; ++i) {
+      const LitPoint point = floor_point(random);
+      sum += tree_of(world).probability(light, point.position_ws, point.normal_ws, no_pick_lobe());
+    }
+    return sum / 200.0;
+  };
+  ASSERT_FALSE(tree_of(world).visibility().empty());
+  const double beside = picks_of_first();
+  const int builds = tree_of(world).builds();
+  for (int i = 0; i < 100; ++i) {
+    scene.lights[0].position_ws = {0.3f, 2.0f + 0.001f * static_cast<float>(i), 0.0f};
+    ASSERT_TRUE(world.update());
+  }
+  const double behind = picks_of_first();
+  ASSERT_EQ(tree_of(world).builds(), builds);
+  std::printf("a light: %.4f of the picks, %.4f behind a wall\n", beside, behind);
+  EXPECT_LT(behind, 0.6 * beside);
+}
+
 TEST(LightVisibility, IsLearnedAgainWithOtherLights) {
   Scene scene = two_lit_rooms(20.0f);
   World world(scene);
@@ -179,6 +218,12 @@ TEST(LightVisibility, IsEmptyWhereThereIsNothingToChoose) {
   test::add_room(scene, kEdge, 0);
   EXPECT_TRUE(learn_light_visibility(World(scene)).empty());
   scene.lights = {test::point_light(glm::vec3(1.0f), glm::vec3(0.0f))};
+  EXPECT_TRUE(learn_light_visibility(World(scene)).empty());
+  // Many lights at one place have a table, and those of no scene none
+  scene.lights.assign(20,
+                      test::point_light(glm::vec3(1.0f), glm::vec3(0.0f, -0.49f * kEdge, 0.0f)));
+  EXPECT_FALSE(learn_light_visibility(World(scene)).empty());
+  scene.instances.clear();
   EXPECT_TRUE(learn_light_visibility(World(scene)).empty());
 }
 

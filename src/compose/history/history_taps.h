@@ -29,8 +29,8 @@ struct SurfacesBefore {
   SurfacesSeen seen;
 };
 
-/// Motion of a point that is where it was in the previous frame, by the camera alone. Averages are
-/// kept only where that holds (MovedParts). A pixel's motion vector is no help: that of a
+/// Motion of a point that is where it was in the previous frame, by the camera alone. Where it
+/// does not hold, MovedParts ends averages. A pixel's motion vector is no help: that of a
 /// blended surface belongs to what is behind it.
 inline PixelMotion camera_motion(const MotionViews& views, const vec3& position_ws) {
   return motion_between(image_point(views.now, position_ws),

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 
 #include "raytracing/raytracer.h"
 #include "raytracing/world_access.h"
@@ -22,8 +24,8 @@ constexpr std::size_t kMaxParts = 32;
 // direction [rad].
 constexpr float kLobeReach = 3.0f;
 
-/// Angle between a ball's middle and its edge from a distance; pi from inside [rad].
-float angle_of(float radius, float distance) {
+/// Angle between a ball's middle and its edge as seen from a distance; pi from inside [rad].
+float half_angle_of_ball(float radius, float distance) {
   return radius < distance ? std::asin(radius / distance) : kPi;
 }
 
@@ -34,10 +36,6 @@ float angle_between(const vec3& a, const vec3& b) {
 }
 
 }  // namespace
-
-bool relights(const WorldChanges& edit) {
-  return !edit.lights.empty() || !edit.materials.empty() || edit.emission || edit.environment;
-}
 
 MovedParts::MovedParts(std::span<const Bounds> moved, std::span<const Bounds> emitters)
     : moved_(around(moved)), emitters_(around(emitters)) {}
@@ -53,13 +51,15 @@ std::vector<MovedParts::Ball> MovedParts::around(std::span<const Bounds> boxes) 
 }
 
 float MovedParts::frames_around(const vec3& position_ws, const vec3& normal_ws) const {
-  // Old light may be wrong by the share of the point's sphere that the parts fill, about
+  // Old light may be wrong by about the share of the light's directions that the parts fill
   float share = 0.0f;
   for (const Ball& part : moved_) {
     const vec3 way = part.center_ws - position_ws;
     // What is below the horizon sends no light
     if (dot(way, normal_ws) < -part.radius) continue;
-    share += part.radius * part.radius / dot(way, way);
+    const float squared_radius = part.radius * part.radius;
+    share += squared_radius /
+             std::max({dot(way, way), squared_radius, std::numeric_limits<float>::min()});
   }
   return 1.0f / std::clamp(share, 1.0f / kMaxFrames, 1.0f);
 }
@@ -67,12 +67,13 @@ float MovedParts::frames_around(const vec3& position_ws, const vec3& normal_ws) 
 bool MovedParts::may_shade(const Ball& part, const vec3& position_ws) const {
   const vec3 to_part = part.center_ws - position_ws;
   const float part_distance = length(to_part);
+  const float half_angle = half_angle_of_ball(part.radius, part_distance);
   return std::any_of(emitters_.begin(), emitters_.end(), [&](const Ball& lights) {
     const vec3 to_lights = lights.center_ws - position_ws;
     const float distance = length(to_lights);
     if (part_distance - part.radius > distance + lights.radius) return false;
     return angle_between(to_part, to_lights) <=
-           angle_of(part.radius, part_distance) + angle_of(lights.radius, distance);
+           half_angle + half_angle_of_ball(lights.radius, distance);
   });
 }
 
@@ -92,17 +93,19 @@ float MovedParts::frames_of_lobe(const vec3& position_ws, const ReflectingLobe& 
     const vec3 way = part.center_ws - position_ws;
     const float part_distance = length(way);
     if (part_distance - part.radius > distance) continue;
-    if (angle_between(way, lobe.mirror_ws) <= reach + angle_of(part.radius, part_distance)) {
+    if (angle_between(way, lobe.mirror_ws) <=
+        reach + half_angle_of_ball(part.radius, part_distance)) {
       return 1.0f;
     }
   }
   if (distance == kInfiniteDistance) return kMaxFrames;
-  return frames_around(position_ws + distance * lobe.mirror_ws, vec3(0.0f));
+  return frames_of_surface(position_ws + distance * lobe.mirror_ws, vec3(0.0f));
 }
 
 std::optional<MovedParts> moved_since(const World& world, std::uint64_t revision) {
   const auto edits = world.changes_since(revision);
-  if (!edits || std::any_of(edits->begin(), edits->end(), relights)) return std::nullopt;
+  if (!edits || std::any_of(edits->begin(), edits->end(), std::mem_fn(&WorldChanges::relights)))
+    return std::nullopt;
   std::vector<Bounds> moved;
   for (const WorldChanges& edit : *edits) {
     moved.insert(moved.end(), edit.moved.begin(), edit.moved.end());

@@ -11,9 +11,6 @@
 
 namespace lambent {
 
-/// Whether an edit changes light in other ways than by moving what it falls on.
-bool relights(const WorldChanges& edit);
-
 /// A lobe that reflects light, for the question what it may show.
 struct ReflectingLobe {
   vec3 mirror_ws;          ///< Mirror direction; unit.

@@ -15,21 +15,23 @@ namespace lambent {
 namespace {
 
 // Lines through the scene in a wave, and surfaces that a line meets at most.
-constexpr std::uint32_t kLinesPerWave = 1024, kMaxCrossings = 12;
-// Lights are tested by at most so many waves, and as many as are needed for about this many tests:
-// for a new world, and after an edit, which should not take long. With four times as many,
+constexpr std::uint32_t kLinesPerWave = 256, kMaxCrossings = 12;
+// Lights are tested by at most so many waves, and as many as are needed for about this many shadow
+// rays: for a new world, and after edits, which should not take long. With four times as many,
 // noise in two rooms with a lamp each is a tenth less.
-constexpr std::uint32_t kMaxWaves = 64;
-constexpr std::size_t kTests = 1 << 19, kTestsOfEdit = 1 << 16;
-// A table is renewed by this many lines, and fades at each of so many renewals, so that it has
-// forgotten half of what it knew after that many.
-constexpr std::uint32_t kLinesPerRenewal = 256, kRenewalsPerFading = 16;
+constexpr std::uint32_t kMaxWaves = 256;
+constexpr std::size_t kRays = 400'000, kRaysOfNewTree = 50'000;
+// A table is renewed by waves of so many lines, at most so many, up to about this many rays. It
+// fades at each of so many renewals, so that it has forgotten half of what it knew after as many.
+constexpr std::uint32_t kLinesOfRenewal = 64, kMaxWavesOfRenewal = 4, kRenewalsPerFading = 16;
+constexpr std::size_t kRaysOfRenewal = 8'000;
 // Lines that are traced together, at least.
 constexpr std::size_t kLinesPerChunk = 32;
 // Clusters that get a smaller share of a point's picks are not tested from it.
 constexpr float kMinTestedShare = 1.0f / 256.0f;
-// The table reaches as far around the lights as the diagonal of the box around them, times this.
-constexpr float kReach = 2.0f;
+// The table reaches as far around the lights as the diagonal of the box around them, times the
+// first of these, and at least as the scene's, times the second.
+constexpr float kReach = 2.0f, kMinReach = 1.0f / 16.0f;
 // Seed of all random numbers in this file.
 constexpr std::uint32_t kSeed = 5;
 
@@ -170,7 +172,7 @@ void cross_surfaces(const World& world, const Lights& lights, const LightVisibil
     const uint index =
         visibility_index(grid, visibility_coords(grid, point.position_ws, point.normal_ws),
                          facing_side(point.normal_ws));
-    if (index != kNoVisibilityRow) PointTests(lights, point, index, random, into).queue();
+    if (index != kOutsideVisibility) PointTests(lights, point, index, random, into).queue();
     ray.origin = offset_ray_origin(surface.position_ws, -surface.geometric_normal_ws);
     ray.t_max -= hit.distance;
     lines.rays[left] = ray;
@@ -180,8 +182,8 @@ void cross_surfaces(const World& world, const Lights& lights, const LightVisibil
   lines.random.resize(left);
 }
 
-/// Adds the tests of `count` lines to a table, and returns their number. `wave` is part of the seed
-/// of random numbers.
+/// Adds the tests of `count` lines to a table, and returns the number of shadow rays. `wave` is
+/// part of the seed of random numbers.
 std::size_t test_lines(const World& world, std::uint32_t wave, std::uint32_t count,
                        LightVisibility& visibility) {
   const Lights lights{lights_of(world), emissive_of(world)};
@@ -204,33 +206,41 @@ std::size_t test_lines(const World& world, std::uint32_t wave, std::uint32_t cou
       found.tests[i].visible = shadows.share(found.rays[i]) != vec3(0.0f);
     }
   });
-  std::size_t tests = 0;
+  std::size_t rays = 0;
   for (const LineTests& some : chunks) {
     visibility.add(some.tests);
-    tests += some.tests.size();
+    rays += some.shadow_rays.size();
   }
-  return tests;
+  return rays;
 }
 
 /// The box that the table covers.
 Bounds covered(const World& world) {
   const LightTreeNode& root = lights_of(world).nodes().front();
   const Bounds all = world_bounds(world.scene());
-  const vec3 reach = root.half_size + vec3(2.0f * length(root.half_size) * kReach);
+  const float least = kMinReach * length(all.max - all.min);
+  const vec3 reach = root.half_size + vec3(std::max(2.0f * length(root.half_size) * kReach, least));
   return {max(all.min, root.center_ws - reach), min(all.max, root.center_ws + reach)};
 }
 
-/// A new table, from about so many tests.
-LightVisibility learned(const World& world, std::size_t tests) {
+/// Whether a box has an inside, or is flat.
+bool has_size(const Bounds& box) {
+  if (box.empty()) return false;
+  const vec3 size = box.max - box.min;
+  const float longest = std::max({size.x, size.y, size.z});
+  return longest > 0.0f && longest < kInfiniteDistance;
+}
+
+/// A new table, from about so many shadow rays.
+LightVisibility learned(const World& world, std::size_t rays) {
   const LightTree& tree = lights_of(world);
   if (!tree.has_choice()) return {};
   const Bounds box = covered(world);
-  if (box.empty()) return {};
-  const std::size_t groups = tree.groups().nodes().size() / kLightGroupSize;
-  LightVisibility visibility(box, static_cast<std::uint32_t>(groups));
-  std::size_t tested = 0;
-  for (std::uint32_t wave = 0; wave < kMaxWaves && tested < tests; ++wave) {
-    tested += test_lines(world, wave, kLinesPerWave, visibility);
+  if (!has_size(box)) return {};
+  LightVisibility visibility(box, tree.groups());
+  std::size_t traced = 0;
+  for (std::uint32_t wave = 0; wave < kMaxWaves && traced < rays; ++wave) {
+    traced += test_lines(world, wave, kLinesPerWave, visibility);
   }
   visibility.weigh();
   return visibility;
@@ -239,16 +249,22 @@ LightVisibility learned(const World& world, std::size_t tests) {
 }  // namespace
 
 LightVisibility learn_light_visibility(const World& world) {
-  return learned(world, kTests);
+  return learned(world, kRays);
 }
 
-LightVisibility follow_light_visibility(const World& world, LightVisibility before) {
-  if (before.empty()) return learned(world, kTestsOfEdit);
-  const auto round = static_cast<std::uint32_t>(world.revision());
-  if (round % kRenewalsPerFading == 0) before.fade();
-  test_lines(world, kMaxWaves + round, kLinesPerRenewal, before);
-  before.weigh();
-  return before;
+LightVisibility learn_of_new_lights(const World& world) {
+  return learned(world, kRaysOfNewTree);
+}
+
+void renew_light_visibility(const World& world, LightVisibility& visibility) {
+  const std::uint32_t renewal = visibility.next_renewal();
+  if (renewal % kRenewalsPerFading == kRenewalsPerFading - 1) visibility.fade();
+  std::size_t traced = 0;
+  for (std::uint32_t k = 0; k < kMaxWavesOfRenewal && traced < kRaysOfRenewal; ++k) {
+    const std::uint32_t wave = kMaxWaves + kMaxWavesOfRenewal * renewal + k;
+    traced += test_lines(world, wave, kLinesOfRenewal, visibility);
+  }
+  visibility.weigh();
 }
 
 }  // namespace lambent

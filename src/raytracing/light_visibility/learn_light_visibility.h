@@ -7,13 +7,16 @@
 
 namespace lambent {
 
-/// Tests the lights of a world's tree from the surfaces around them. Empty where the tree has a
-/// single light. The same bits on any number of threads.
+/// Tests the lights of a world's tree from the surfaces around them. Empty where the tree has no
+/// two lights, or nothing is around them. The same bits on any number of threads.
 LightVisibility learn_light_visibility(const World& world);
 
+/// The same with fewer rays, for a tree that was built anew after an edit.
+LightVisibility learn_of_new_lights(const World& world);
+
 /// Follows edits of the scene's geometry and lights, to which the world was updated: tests some of
-/// the lights again, or begins anew where there is no table `before`. It takes some milliseconds;
-/// picks by a table that has not yet followed have more noise, but the same expectation.
-LightVisibility follow_light_visibility(const World& world, LightVisibility before);
+/// the lights again. It takes some milliseconds; picks by a table that has not yet followed have
+/// more noise, but the same expectation.
+void renew_light_visibility(const World& world, LightVisibility& visibility);
 
 }  // namespace lambent

@@ -194,7 +194,9 @@ void DeviceScene::upload_light_visibility(const LightVisibility& visibility) {
   visibility_grid_ = visibility.grid();
   visibility_rows_.set(device_, visibility.rows(), "rows of visibility");
   std::vector<std::uint32_t> weights(visibility.weights().size() / sizeof(std::uint32_t));
-  std::memcpy(weights.data(), visibility.weights().data(), visibility.weights().size());
+  if (!weights.empty()) {
+    std::memcpy(weights.data(), visibility.weights().data(), visibility.weights().size());
+  }
   visibility_weights_.set(device_, std::move(weights), "visibility of lights");
 }
 

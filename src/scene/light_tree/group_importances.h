@@ -33,6 +33,12 @@ struct GroupNumbers {
   const float* at(uint group) const { return first + group * kGroupFloats; }
 };
 
+/// Weight of the visibility of a node of a group; 1 where none is known.
+inline float visibility_in_groups(const GroupNumbers& tree, uint group, uint child) {
+  const bool known = tree.weights != nullptr && group < kGroupsWithVisibility;
+  return known ? visibility_weight(tree.weights[group * kLightGroupSize + child]) : 1.0f;
+}
+
 /// pick_lights(), pick_below() and bounded_lobe() of light_tree.inl.h; the same bits on all
 /// instruction sets.
 void pick_in_groups(const GroupNumbers& tree, const vec3& position_ws, const vec3& normal_ws,

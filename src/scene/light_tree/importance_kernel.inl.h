@@ -60,7 +60,7 @@ LAMBENT_FORCE_INLINE bool knows_visibility(const GroupNumbers& tree, uint group)
   return tree.weights != nullptr && group < kGroupsWithVisibility;
 }
 LAMBENT_FORCE_INLINE float fetch_visibility(const GroupNumbers& tree, uint group, uint child) {
-  return visibility_weight(tree.weights[group * kLightGroupSize + child]);
+  return visibility_in_groups(tree, group, child);
 }
 
 #include "scene/light_tree/light_tree.inl.h"

@@ -26,7 +26,7 @@ class LightGroups {
   const float* numbers(std::uint32_t group) const { return numbers_.data() + group * kGroupFloats; }
   /// The numbers of all groups.
   GroupNumbers all_numbers() const {
-    return {numbers_.data(), static_cast<uint>(numbers_.size() / kGroupFloats), nullptr};
+    return {numbers_.data(), static_cast<uint>(numbers_.size() / kGroupFloats)};
   }
   /// The place of a node of the tree: group * kLightGroupSize + child; kNowhere if it is in none.
   std::uint32_t place_of(std::uint32_t node) const { return places_[node]; }

@@ -215,12 +215,15 @@ void LightTree::fit(const EmissiveTriangles& emissive, bool is_new) {
 }
 
 double LightTree::cost() const {
+  // Over the intensity of all: a tree does not wear out by getting brighter
+  const double intensity = nodes_.empty() ? 0.0 : double{nodes_.front().intensity};
+  if (!(intensity > 0.0)) return 0.0;
   double sum = 0.0;
   for (const LightTreeNode& node : nodes_) {
     sum +=
         double{node.intensity} * glm::dot(node.half_size, node.half_size) * (2.0 - node.cos_spread);
   }
-  return sum;
+  return sum / intensity;
 }
 
 GroupNumbers LightTree::seen_from(const glm::vec3& position_ws, const glm::vec3& normal_ws) const {
@@ -258,19 +261,16 @@ LightPick LightTree::pick_below(std::uint32_t link, const glm::vec3& position_ws
 
 float LightTree::probability(std::uint32_t light, const glm::vec3& position_ws,
                              const glm::vec3& normal_ws, const PickLobe& lobe) const {
-  const std::uint8_t* weights = visibility_.at(position_ws, normal_ws);
+  const GroupNumbers seen = seen_from(position_ws, normal_ws);
   float probability = 1.0f;
   for (std::uint32_t node = leaves_[light];; node = parents_[node]) {
     const std::uint32_t place = groups_.place_of(node);
     if (place != LightGroups::kNowhere) {
       float importances[kLightGroupSize], sum = 0.0f;
-      lambent::group_importances(groups_.numbers(place / kLightGroupSize), position_ws, normal_ws,
-                                 lobe, importances);
       const std::uint32_t group = place / kLightGroupSize;
+      lambent::group_importances(seen.at(group), position_ws, normal_ws, lobe, importances);
       for (std::uint32_t k = 0; k < kLightGroupSize; ++k) {
-        if (weights != nullptr && group < kGroupsWithVisibility) {
-          importances[k] *= visibility_weight(weights[group * kLightGroupSize + k]);
-        }
+        importances[k] *= visibility_in_groups(seen, group, k);
         sum += importances[k];
       }
       const float importance = importances[place % kLightGroupSize];

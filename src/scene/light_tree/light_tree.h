@@ -91,6 +91,7 @@ class LightTree {
   /// `is_new`: the tree was built.
   void fit(const EmissiveTriangles& emissive, bool is_new);
   double cost() const;
+  /// The groups with the weights of visibility that a surface gives them.
   GroupNumbers seen_from(const glm::vec3& position_ws, const glm::vec3& normal_ws) const;
 
   std::vector<LightRecord> lights_;

@@ -10,8 +10,7 @@
 //                                              group 0 is the root's
 //   bool knows_visibility(LightTreeRef tree, uint group)
 //   float fetch_visibility(LightTreeRef tree, uint group, uint child)
-//                                              weight of a node where knows_visibility(), else
-//                                              unread
+//                                              weight of a node; called where knows_visibility()
 // where importances are those of light_importance.
 
 /// The importances of a group's nodes times the weights of their visibility.
@@ -107,5 +106,9 @@ LAMBENT_FN void pick_lights(LightTreeRef tree, vec3 position_ws, vec3 normal_ws,
     pick_below(tree, 0u, position_ws, normal_ws, lobe, count, picks);
     return;
   }
-  for (uint i = 0u; i < count; ++i) picks.at[i].probability = 0.0f;
+  for (uint i = 0u; i < count; ++i) {
+    picks.at[i].light = kLightTreeLeaf;
+    picks.at[i].probability = 0.0f;
+    picks.at[i].visibility = 1.0f;
+  }
 }

@@ -38,7 +38,9 @@ struct LightPick {
   uint light;
   float probability;  ///< Of picking it; 0: none was picked, since none is visible.
   float rest;         ///< Uniform, 0 to 1.
-  float visibility;   ///< Weight of the smallest of its clusters that has one; else 1.
+  /// Weight of the visibility of the smallest of its clusters that has one, see LightVisibility;
+  /// 1 where none has.
+  float visibility;
 };
 
 // Number of picks that traverse the tree together.

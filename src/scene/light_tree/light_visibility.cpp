@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace lambent {
 namespace {
@@ -14,8 +13,6 @@ constexpr float kCellsAlong = 32.0f;
 // Each entry begins as if this many rays had been tested and half of them had arrived: no light is
 // ever ruled out. With twice as many, noise there is 5 % higher.
 constexpr float kPriorTests = 0.25f;
-// An entry's counts are halved when they reach this.
-constexpr std::uint16_t kMaxTests = 1 << 14;
 
 // What light_visibility.inl.h requires of its includer.
 using VisibilityRef = const LightVisibility&;
@@ -29,13 +26,18 @@ uint fetch_visibility_row(const LightVisibility& visibility, uint index) {
 
 }  // namespace
 
-LightVisibility::LightVisibility(const Bounds& box, std::uint32_t groups) {
+LightVisibility::LightVisibility(const Bounds& box, const LightGroups& groups) {
   const glm::vec3 size = box.max - box.min;
-  const float longest = std::max({size.x, size.y, size.z, std::numeric_limits<float>::min()});
+  const float longest = std::max({size.x, size.y, size.z});
   grid_.min_ws = box.min;
   grid_.cells_per_metre = kCellsAlong / longest;
   grid_.size = uvec3(size * grid_.cells_per_metre) + 1u;
-  grid_.row_length = std::min(groups, kGroupsWithVisibility) * kLightGroupSize;
+  const auto count = static_cast<std::uint32_t>(groups.nodes().size() / kLightGroupSize);
+  grid_.row_length = std::min(count, kGroupsWithVisibility) * kLightGroupSize;
+  for (std::uint32_t child = 0; child < kLightGroupSize; ++child) {
+    const std::uint32_t link = groups.nodes()[child].link;
+    if (link > 0 && link < kGroupsWithVisibility) nodes_above_[link] = child;
+  }
   rows_.assign(std::size_t{grid_.size.x} * grid_.size.y * grid_.size.z * kFacingSides,
                kNoVisibilityRow);
 }
@@ -48,32 +50,33 @@ void LightVisibility::add(std::span<const VisibilityTest> tests) {
       counts_.resize(counts_.size() + grid_.row_length);
     }
     Count& count = counts_[std::size_t{row} * grid_.row_length + test.entry];
-    if (count.tested == kMaxTests) {
-      count.tested /= 2;
-      count.visible /= 2;
-    }
-    ++count.tested;
-    if (test.visible) ++count.visible;
+    count.tested += 1.0f;
+    if (test.visible) count.visible += 1.0f;
   }
 }
 
 void LightVisibility::fade() {
   for (Count& count : counts_) {
-    // A light that was seen once stays one that may be seen
-    count.tested = static_cast<std::uint16_t>((count.tested + 1) / 2);
-    count.visible = static_cast<std::uint16_t>((count.visible + 1) / 2);
+    count.tested *= 0.5f;
+    count.visible *= 0.5f;
   }
 }
 
 void LightVisibility::weigh() {
   weights_.resize(counts_.size());
-  std::transform(counts_.begin(), counts_.end(), weights_.begin(), [](const Count& count) {
-    if (count.tested == 0) return static_cast<std::uint8_t>(kWholeVisibility);
-    const float share = (static_cast<float>(count.visible) + 0.5f * kPriorTests) /
-                        (static_cast<float>(count.tested) + kPriorTests);
-    const float weight = std::sqrt(share) * kWholeVisibility;
-    return static_cast<std::uint8_t>(std::max(std::round(weight), 1.0f));
-  });
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    const std::size_t entry = i % grid_.row_length, group = entry / kLightGroupSize;
+    const Count& count = counts_[i];
+    if (count.tested == 0.0f) {
+      // Nodes above come before
+      weights_[i] = group > 0 ? weights_[i - entry + nodes_above_[group]]
+                              : static_cast<std::uint8_t>(kWholeVisibility);
+      continue;
+    }
+    const float share = (count.visible + 0.5f * kPriorTests) / (count.tested + kPriorTests);
+    weights_[i] =
+        static_cast<std::uint8_t>(std::max(std::round(std::sqrt(share) * kWholeVisibility), 1.0f));
+  }
 }
 
 const std::uint8_t* LightVisibility::at(const glm::vec3& position_ws,

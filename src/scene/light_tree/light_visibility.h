@@ -6,11 +6,13 @@
 // times regions of surfaces, with a prior that never rules a light out.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "lambent/scene.h"
+#include "scene/light_tree/light_groups.h"
 #include "scene/light_tree/light_visibility_math.h"
 
 namespace lambent {
@@ -28,8 +30,9 @@ struct VisibilityTest {
 class LightVisibility {
  public:
   LightVisibility() = default;  ///< Without a grid: there are no rows.
-  /// A grid of cubic cells over a box that is not empty, for the first groups of a tree.
-  LightVisibility(const Bounds& box, std::uint32_t groups);
+  /// A grid of cubic cells over a box whose longest side is above 0, for the first groups of a
+  /// tree, which must stay as they are.
+  LightVisibility(const Bounds& box, const LightGroups& groups);
 
   const LightVisibilityGrid& grid() const { return grid_; }
   /// The row of each side of each cell; kNoVisibilityRow where none was tested.
@@ -38,22 +41,28 @@ class LightVisibility {
   const std::vector<std::uint8_t>& weights() const { return weights_; }
   bool empty() const { return weights_.empty(); }
 
-  /// Adds tests, each of which then counts more than older ones if these were `faded`.
+  /// Adds tests. They count once there was a call of weigh().
   void add(std::span<const VisibilityTest> tests);
-  /// Lets all earlier tests count half as much.
+  /// Lets all earlier tests count half as much as those that follow.
   void fade();
-  /// Computes the weights from the tests so far.
+  /// Computes the weights from the tests so far. A node that was not tested has that of the node
+  /// of the root's group that it is below.
   void weigh();
+  /// Number of calls of this function so far, for whoever renews the tests.
+  std::uint32_t next_renewal() { return renewals_++; }
 
   /// The weights of the surfaces around a point that face as its normal does; null: none are known.
   const std::uint8_t* at(const glm::vec3& position_ws, const glm::vec3& normal_ws) const;
 
  private:
+  /// Numbers of tests, which fade.
   struct Count {
-    std::uint16_t tested = 0, visible = 0;
+    float tested = 0.0f, visible = 0.0f;
   };
 
   LightVisibilityGrid grid_{};
+  std::array<std::uint32_t, kGroupsWithVisibility> nodes_above_{};  // of the groups
+  std::uint32_t renewals_ = 0;
   std::vector<std::uint32_t> rows_;
   std::vector<Count> counts_;
   std::vector<std::uint8_t> weights_;

@@ -14,8 +14,9 @@ LAMBENT_FN uint visibility_row(VisibilityRef visibility, vec3 position_ws, vec3 
   uint side = facing_side(normal_ws);
   vec3 coords = visibility_coords(grid, position_ws, normal_ws);
   uint index = visibility_index(grid, jittered_coords(coords, side), side);
-  uint row = index == kNoVisibilityRow ? index : fetch_visibility_row(visibility, index);
+  uint row = kNoVisibilityRow;
+  if (index != kOutsideVisibility) row = fetch_visibility_row(visibility, index);
   if (row != kNoVisibilityRow) return row;
   index = visibility_index(grid, coords, side);
-  return index == kNoVisibilityRow ? index : fetch_visibility_row(visibility, index);
+  return index == kOutsideVisibility ? kNoVisibilityRow : fetch_visibility_row(visibility, index);
 }

@@ -20,9 +20,13 @@ const uint kFacingSides = 6u;
 // Row of surfaces about which nothing is known.
 const uint kNoVisibilityRow = 0xFFFFFFFFu;
 
+// Index of points outside of the grid.
+const uint kOutsideVisibility = 0xFFFFFFFFu;
+
 // Weights are stored in bytes, of which this one is a weight of 1.
 const float kWholeVisibility = 255.0f;
 
+/// A weight, above 0 and up to 1, as it is stored.
 LAMBENT_FN float visibility_weight(uint stored) {
   return float(stored) * (1.0f / kWholeVisibility);
 }
@@ -51,10 +55,10 @@ LAMBENT_FN vec3 visibility_coords(LightVisibilityGrid grid, vec3 position_ws, ve
   return (position_ws - grid.min_ws) * grid.cells_per_metre + kCellsInFront * normal_ws;
 }
 
-/// The index of a cell's side; kNoVisibilityRow outside of the grid.
+/// The index of a cell's side; kOutsideVisibility outside of the grid.
 LAMBENT_FN uint visibility_index(LightVisibilityGrid grid, vec3 coords, uint side) {
   for (int axis = 0; axis < 3; ++axis) {
-    if (!(coords[axis] >= 0.0f && coords[axis] < float(grid.size[axis]))) return kNoVisibilityRow;
+    if (!(coords[axis] >= 0.0f && coords[axis] < float(grid.size[axis]))) return kOutsideVisibility;
   }
   uvec3 cell = uvec3(coords);
   return ((cell.z * grid.size.y + cell.y) * grid.size.x + cell.x) * kFacingSides + side;
