@@ -32,7 +32,9 @@ std::vector<CorrectionSample> samples_on_floor(int count, Ratio ratio, std::uint
   std::uniform_real_distribution<float> place(-3.0f, 3.0f), pick(0.0f, 1.0f);
   std::vector<CorrectionSample> samples;
   for (int i = 0; i < count; ++i) {
-    const vec3 position(place(random), 0.01f, place(random));
+    // Compilers draw the arguments of a call in orders of their own
+    const float z = place(random), x = place(random);
+    const vec3 position(x, 0.01f, z);
     samples.push_back({position, kUp, 0, ratio(position.x) * 2.0f, 0.0f, 2.0f, pick(random)});
   }
   return samples;
@@ -91,7 +93,8 @@ TEST(Corrections, ReadFromSingleCellsHaveTheMeanOfInterpolatedOnes) {
   std::uniform_real_distribution<float> place(-2.0f, 2.0f);
   double smooth = 0.0, picked = 0.0;
   for (int i = 0; i < 20000; ++i) {
-    const vec3 at(place(random), 0.01f, place(random));
+    const float z = place(random), x = place(random);
+    const vec3 at(x, 0.01f, z);
     smooth += read(table, at);
     picked += read(table, at, kUp, CorrectionUse::picked);
   }
