@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The order of a frame's passes, for all backends, and the state of a renderer between frames.
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -99,9 +98,8 @@ FrameChange change_of(const PictureView& before, const PictureView& now, const W
   change.moved = !is_same(before.camera, now.camera);
   change.edited = before.world_revision != now.world_revision;
   const auto edits = world.changes_since(before.world_revision);
-  change.relit = !edits ||
-                 std::any_of(edits->begin(), edits->end(), std::mem_fn(&WorldChanges::relights)) ||
-                 before.fog != now.fog;
+  change.relit =
+      !edits || std::ranges::any_of(*edits, &WorldChanges::relights) || before.fog != now.fog;
   return change;
 }
 

@@ -47,16 +47,19 @@ TEST(MovedParts, EndAveragesInTheShadowsOfLamps) {
 TEST(MovedParts, EndAveragesOfLobesThatMayShowThem) {
   const std::vector<Bounds> moved = {box_at({0.0f, 5.0f, 0.0f}, 0.2f)};
   const MovedParts parts(moved, {});
+  const auto lobe = [](const vec3& mirror_ws, float alpha, float inverse_distance) {
+    return LobeGuide{mirror_ws, vec3(0.0f), 1.0f / (alpha * alpha), inverse_distance};
+  };
   const vec3 place(0.0f), aside = normalize(vec3(1.0f, 1.0f, 0.0f));
-  EXPECT_EQ(parts.frames_of_lobe(place, {kUp, 0.01f, 0.05f}), 1.0f);
+  EXPECT_EQ(parts.frames_of_lobe(place, lobe(kUp, 0.01f, 0.05f)), 1.0f);
   // A wall hides the part, or the mirror faces elsewhere, unless its lobe is wide
-  EXPECT_GT(parts.frames_of_lobe(place, {kUp, 0.01f, 1.0f}), 4.0f);
-  EXPECT_GT(parts.frames_of_lobe(place, {aside, 0.01f, 0.05f}), 4.0f);
-  EXPECT_EQ(parts.frames_of_lobe(place, {aside, 0.4f, 0.05f}), 1.0f);
+  EXPECT_GT(parts.frames_of_lobe(place, lobe(kUp, 0.01f, 1.0f)), 4.0f);
+  EXPECT_GT(parts.frames_of_lobe(place, lobe(aside, 0.01f, 0.05f)), 4.0f);
+  EXPECT_EQ(parts.frames_of_lobe(place, lobe(aside, 0.4f, 0.05f)), 1.0f);
   // What the mirror shows is just beside the part
   const vec3 past = normalize(vec3(0.15f, 1.0f, 0.0f));
-  EXPECT_LT(parts.frames_of_lobe(place, {past, 0.01f, 0.2f}), 8.0f);
-  EXPECT_GT(parts.frames_of_lobe(place, {past, 0.01f, 0.2f}), 1.0f);
+  EXPECT_LT(parts.frames_of_lobe(place, lobe(past, 0.01f, 0.2f)), 8.0f);
+  EXPECT_GT(parts.frames_of_lobe(place, lobe(past, 0.01f, 0.2f)), 1.0f);
 }
 
 TEST(MovedParts, AreUnknownWhereEditsRelight) {

@@ -157,8 +157,7 @@ void average_reflected_light(const FrameAveraging& by, const SurfacesSeen& now,
       if (found.share > 0.0f) {
         float most = by.most_frames;
         if (by.moved != nullptr) {
-          const ReflectingLobe lobe{guide.mirror_ws, lobes.alphas[i], lobes.inverse_distances[i]};
-          most = std::min(most, by.moved->frames_of_lobe(now.positions_ws[i], lobe));
+          most = std::min(most, by.moved->frames_of_lobe(now.positions_ws[i], guide));
         }
         frames = averaged_frames(weighted_sum(last.frames, found.taps), most);
       }

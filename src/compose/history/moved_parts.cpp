@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "raytracing/raytracer.h"
@@ -14,18 +13,19 @@
 namespace lambent {
 namespace {
 
-// Frames over which light is averaged beside motion: where it changes far from what moves, in the
-// light of a shadow, a third of the old light is left after as many frames.
+// Most frames over which light is averaged while things move. Their shadows may change bounced
+// light far from them: a third of the old light is left after as many frames.
 constexpr float kMaxFrames = 8.0f;
 // With more moving parts than this, light is taken to change everywhere: each costs time at every
 // pixel.
 constexpr std::size_t kMaxParts = 32;
-// A GGX lobe reflects nearly all of its light within this many times its width of the mirror
-// direction [rad].
+// A GGX lobe reflects 70 % of its light within this many times its width of the mirror direction
+// [rad]: half vectors within half of that angle. The rest comes from so wide an angle that one part
+// changes little of it.
 constexpr float kLobeReach = 3.0f;
 
-/// Angle between a ball's middle and its edge as seen from a distance; pi from inside [rad].
-float half_angle_of_ball(float radius, float distance) {
+/// Angular radius of a sphere at a distance from its centre; pi from inside [rad].
+float angular_radius(float radius, float distance) {
   return radius < distance ? std::asin(radius / distance) : kPi;
 }
 
@@ -40,20 +40,20 @@ float angle_between(const vec3& a, const vec3& b) {
 MovedParts::MovedParts(std::span<const Bounds> moved, std::span<const Bounds> emitters)
     : moved_(around(moved)), emitters_(around(emitters)) {}
 
-std::vector<MovedParts::Ball> MovedParts::around(std::span<const Bounds> boxes) {
-  std::vector<Ball> balls;
+std::vector<MovedParts::BoundingSphere> MovedParts::around(std::span<const Bounds> boxes) {
+  std::vector<BoundingSphere> spheres;
   for (const Bounds& box : boxes) {
     if (!box.empty()) {
-      balls.push_back({0.5f * box.min + 0.5f * box.max, 0.5f * length(box.max - box.min)});
+      spheres.push_back({0.5f * box.min + 0.5f * box.max, 0.5f * length(box.max - box.min)});
     }
   }
-  return balls;
+  return spheres;
 }
 
 float MovedParts::frames_around(const vec3& position_ws, const vec3& normal_ws) const {
   // Old light may be wrong by about the share of the light's directions that the parts fill
   float share = 0.0f;
-  for (const Ball& part : moved_) {
+  for (const BoundingSphere& part : moved_) {
     const vec3 way = part.center_ws - position_ws;
     // What is below the horizon sends no light
     if (dot(way, normal_ws) < -part.radius) continue;
@@ -64,37 +64,36 @@ float MovedParts::frames_around(const vec3& position_ws, const vec3& normal_ws) 
   return 1.0f / std::clamp(share, 1.0f / kMaxFrames, 1.0f);
 }
 
-bool MovedParts::may_shade(const Ball& part, const vec3& position_ws) const {
+bool MovedParts::may_shade(const BoundingSphere& part, const vec3& position_ws) const {
   const vec3 to_part = part.center_ws - position_ws;
   const float part_distance = length(to_part);
-  const float half_angle = half_angle_of_ball(part.radius, part_distance);
-  return std::any_of(emitters_.begin(), emitters_.end(), [&](const Ball& lights) {
+  const float part_angle = angular_radius(part.radius, part_distance);
+  return std::any_of(emitters_.begin(), emitters_.end(), [&](const BoundingSphere& lights) {
     const vec3 to_lights = lights.center_ws - position_ws;
     const float distance = length(to_lights);
     if (part_distance - part.radius > distance + lights.radius) return false;
     return angle_between(to_part, to_lights) <=
-           half_angle + half_angle_of_ball(lights.radius, distance);
+           part_angle + angular_radius(lights.radius, distance);
   });
 }
 
 float MovedParts::frames_of_surface(const vec3& position_ws, const vec3& normal_ws) const {
-  const bool shaded = std::any_of(moved_.begin(), moved_.end(), [&](const Ball& part) {
+  const bool shaded = std::any_of(moved_.begin(), moved_.end(), [&](const BoundingSphere& part) {
     return dot(part.center_ws - position_ws, normal_ws) >= -part.radius &&
            may_shade(part, position_ws);
   });
   return shaded ? 1.0f : frames_around(position_ws, normal_ws);
 }
 
-float MovedParts::frames_of_lobe(const vec3& position_ws, const ReflectingLobe& lobe) const {
-  const float reach = kLobeReach * lobe.alpha;
+float MovedParts::frames_of_lobe(const vec3& position_ws, const LobeGuide& lobe) const {
+  const float reach = kLobeReach * inversesqrt(lobe.sharpness);
   const float distance =
       lobe.inverse_distance > 0.0f ? 1.0f / lobe.inverse_distance : kInfiniteDistance;
-  for (const Ball& part : moved_) {
+  for (const BoundingSphere& part : moved_) {
     const vec3 way = part.center_ws - position_ws;
     const float part_distance = length(way);
     if (part_distance - part.radius > distance) continue;
-    if (angle_between(way, lobe.mirror_ws) <=
-        reach + half_angle_of_ball(part.radius, part_distance)) {
+    if (angle_between(way, lobe.mirror_ws) <= reach + angular_radius(part.radius, part_distance)) {
       return 1.0f;
     }
   }
@@ -104,8 +103,7 @@ float MovedParts::frames_of_lobe(const vec3& position_ws, const ReflectingLobe& 
 
 std::optional<MovedParts> moved_since(const World& world, std::uint64_t revision) {
   const auto edits = world.changes_since(revision);
-  if (!edits || std::any_of(edits->begin(), edits->end(), std::mem_fn(&WorldChanges::relights)))
-    return std::nullopt;
+  if (!edits || std::ranges::any_of(*edits, &WorldChanges::relights)) return std::nullopt;
   std::vector<Bounds> moved;
   for (const WorldChanges& edit : *edits) {
     moved.insert(moved.end(), edit.moved.begin(), edit.moved.end());

@@ -6,17 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "denoise/atrous_pass.h"
 #include "lambent/world.h"
 #include "shared/lang.h"
 
 namespace lambent {
-
-/// A lobe that reflects light, for the question what it may show.
-struct ReflectingLobe {
-  vec3 mirror_ws;          ///< Mirror direction; unit.
-  float alpha;             ///< GGX width.
-  float inverse_distance;  ///< One over the distance to what it shows [1/m].
-};
 
 /// The parts of a world that moved since a frame, and the lights whose shadows they may move.
 class MovedParts {
@@ -30,20 +24,20 @@ class MovedParts {
   /// follows edits at once.
   float frames_of_surface(const vec3& position_ws, const vec3& normal_ws) const;
 
-  /// The same for what a lobe at a surface reflects.
-  float frames_of_lobe(const vec3& position_ws, const ReflectingLobe& lobe) const;
+  /// The same for what a lobe of some sharpness at a surface reflects.
+  float frames_of_lobe(const vec3& position_ws, const LobeGuide& lobe) const;
 
  private:
-  struct Ball {
+  struct BoundingSphere {
     vec3 center_ws;
     float radius;  // [m]
   };
-  static std::vector<Ball> around(std::span<const Bounds> boxes);
+  static std::vector<BoundingSphere> around(std::span<const Bounds> boxes);
   /// The largest number for light that comes from all sides of a point.
   float frames_around(const vec3& position_ws, const vec3& normal_ws) const;
-  bool may_shade(const Ball& part, const vec3& position_ws) const;
+  bool may_shade(const BoundingSphere& part, const vec3& position_ws) const;
 
-  std::vector<Ball> moved_, emitters_;
+  std::vector<BoundingSphere> moved_, emitters_;
 };
 
 /// The parts that moved since a revision of the world; none where light may have changed

@@ -48,34 +48,10 @@ struct LineTests {
   }
 };
 
-/// What tests read.
-struct Lights {
-  const LightTree& tree;
-  const EmissiveTriangles& emissive;
-};
-
-/// A random point of a light as seen from a surface, of any brightness; no_candidate() where the
-/// light does not shine there.
-LightCandidate towards(const Lights& lights, std::uint32_t light, const LitPoint& point,
-                       const vec2& u) {
-  const auto emitters = static_cast<std::uint32_t>(lights.emissive.size());
-  if (light >= emitters) {
-    const PunctualSample seen =
-        sample_punctual(lights.tree.lights()[light - emitters], point.position_ws);
-    if (seen.irradiance == vec3(0.0f)) return no_candidate();
-    return {seen.to_light, seen.distance, vec3(1.0f), 0u};
-  }
-  const EmitterRecord& emitter = lights.emissive.entries()[light];
-  const TrianglePointSeen seen = draw_on_triangle(emitter.corner_ws - point.position_ws,
-                                                  emitter.edge1_ws, emitter.edge2_ws, u);
-  if (seen.pdf <= 0.0f) return no_candidate();
-  return {seen.to_point, seen.distance, vec3(1.0f), 1u};
-}
-
 /// The shares of picks that the nodes of a group get at a point.
 struct Shares {
-  Shares(const Lights& lights, std::uint32_t group, const LitPoint& point) {
-    group_importances(lights.tree.groups().numbers(group), point.position_ws, point.normal_ws,
+  Shares(const LightTree& tree, std::uint32_t group, const LitPoint& point) {
+    group_importances(tree.groups().numbers(group), point.position_ws, point.normal_ws,
                       no_pick_lobe(), of);
     float sum = 0.0f;
     for (const float importance : of) sum += importance;
@@ -88,15 +64,15 @@ struct Shares {
 /// Queues tests of all clusters that a point would pick.
 class PointTests {
  public:
-  PointTests(const Lights& lights, const LitPoint& point, std::uint32_t index, RandomStream& random,
+  PointTests(const World& world, const LitPoint& point, std::uint32_t index, RandomStream& random,
              LineTests& into)
-      : lights_(lights), point_(point), index_(index), random_(random), into_(into) {}
+      : world_(world), point_(point), index_(index), random_(random), into_(into) {}
 
   void queue() {
-    const Shares shares(lights_, 0u, point_);
+    const Shares shares(tree(), 0u, point_);
     for (uint child = 0; child < kLightGroupSize; ++child) {
       if (shares.of[child] < kMinTestedShare) continue;
-      const uint link = link_in_group(lights_.tree.groups().numbers(0u), child);
+      const uint link = link_in_group(tree().groups().numbers(0u), child);
       if ((link & kLightTreeLeaf) != 0u) {
         queue_light(link, child);
       } else {
@@ -109,11 +85,11 @@ class PointTests {
   /// Tests the nodes of the group below node `above` of the root's group. Each of these tests also
   /// counts for that node, with a probability in proportion to the share of its own.
   void queue_group(uint group, uint above, float share_above) {
-    const Shares shares(lights_, group, point_);
+    const Shares shares(tree(), group, point_);
     const float largest = shares.largest();
     for (uint child = 0; child < kLightGroupSize; ++child) {
       if (share_above * shares.of[child] < kMinTestedShare) continue;
-      const bool tested = queue_light(link_in_group(lights_.tree.groups().numbers(group), child),
+      const bool tested = queue_light(link_in_group(tree().groups().numbers(group), child),
                                       group * kLightGroupSize + child);
       const bool counts = next_uniform(random_) * largest < shares.of[child];
       if (tested && counts) into_.test(index_, above);
@@ -124,17 +100,18 @@ class PointTests {
   /// that shines on the point if nothing is in the way.
   bool queue_light(uint link, uint entry) {
     const LightPick pick =
-        lights_.tree.pick_below(link, point_.position_ws, point_.normal_ws, next_uniform(random_));
-    const vec2 u = next_uniform2(random_);
-    if (pick.probability <= 0.0f) return false;
-    const LightCandidate light = towards(lights_, pick.light, point_, u);
+        tree().pick_below(link, point_.position_ws, point_.normal_ws, next_uniform(random_));
+    const LightCandidate light = drawn_candidate({world_, 1}, point_, pick, next_uniform(random_));
+    if (light.perpendicular_irradiance == vec3(0.0f)) return false;
     if (dot(point_.geometric_normal_ws, light.to_light) <= 0.0f) return false;
     into_.shadow_rays.push_back(shadow_ray(point_.position_ws, point_.geometric_normal_ws, light));
     into_.test(index_, entry);
     return true;
   }
 
-  const Lights& lights_;
+  const LightTree& tree() const { return lights_of(world_); }
+
+  const World& world_;
   const LitPoint& point_;
   std::uint32_t index_;
   RandomStream& random_;
@@ -157,8 +134,8 @@ struct Lines {
 };
 
 /// Moves lines on to the next surfaces, queues the tests of these, and drops lines that meet none.
-void cross_surfaces(const World& world, const Lights& lights, const LightVisibilityGrid& grid,
-                    Lines& lines, LineTests& into) {
+void cross_surfaces(const World& world, const LightVisibilityGrid& grid, Lines& lines,
+                    LineTests& into) {
   lines.hits.resize(lines.rays.size());
   tracer_of(world).closest_hits(lines.rays, lines.hits);
   std::size_t left = 0;
@@ -172,7 +149,7 @@ void cross_surfaces(const World& world, const Lights& lights, const LightVisibil
     const uint index =
         visibility_index(grid, visibility_coords(grid, point.position_ws, point.normal_ws),
                          facing_side(point.normal_ws));
-    if (index != kOutsideVisibility) PointTests(lights, point, index, random, into).queue();
+    if (index != kOutsideVisibility) PointTests(world, point, index, random, into).queue();
     ray.origin = offset_ray_origin(surface.position_ws, -surface.geometric_normal_ws);
     ray.t_max -= hit.distance;
     lines.rays[left] = ray;
@@ -186,7 +163,6 @@ void cross_surfaces(const World& world, const Lights& lights, const LightVisibil
 /// part of the seed of random numbers.
 std::size_t test_lines(const World& world, std::uint32_t wave, std::uint32_t count,
                        LightVisibility& visibility) {
-  const Lights lights{lights_of(world), emissive_of(world)};
   const std::size_t chunk = batch_of(tracer_of(world), 1, kLinesPerChunk);
   std::vector<LineTests> chunks((count + chunk - 1) / chunk);
   parallel_chunks(count, chunk, [&](std::size_t begin, std::size_t end) {
@@ -198,7 +174,7 @@ std::size_t test_lines(const World& world, std::uint32_t wave, std::uint32_t cou
       lines.random.push_back(random);
     }
     for (std::uint32_t k = 0; k < kMaxCrossings && !lines.rays.empty(); ++k) {
-      cross_surfaces(world, lights, visibility.grid(), lines, found);
+      cross_surfaces(world, visibility.grid(), lines, found);
     }
     ShadowRays shadows;
     shadows.trace(tracer_of(world), found.shadow_rays);
@@ -223,7 +199,7 @@ Bounds covered(const World& world) {
   return {max(all.min, root.center_ws - reach), min(all.max, root.center_ws + reach)};
 }
 
-/// Whether a box has an inside, or is flat.
+/// Whether a box is finite, and more than a point.
 bool has_size(const Bounds& box) {
   if (box.empty()) return false;
   const vec3 size = box.max - box.min;

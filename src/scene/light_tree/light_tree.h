@@ -63,7 +63,7 @@ class LightTree {
   void pick(const glm::vec3& position_ws, const glm::vec3& normal_ws, const PickLobe& lobe,
             std::uint32_t count, LightPicks& picks) const;
 
-  /// Picks a light below a link of the groups, as the others do.
+  /// Picks a light below a link of the groups by importance alone, whatever is visible.
   LightPick pick_below(std::uint32_t link, const glm::vec3& position_ws, const glm::vec3& normal_ws,
                        float u) const;
 
