@@ -32,8 +32,11 @@ void queue_direct_light(const LightDraws& draws, const Media& media, const GBuff
   const Frame frame = make_frame(surface.normal_ws);
   const vec3 to_viewer = to_local(frame, gbuffer.to_viewer_ws[pixel]);
   const CoatShares shares = gbuffer.coat_shares.empty() ? CoatShares{} : gbuffer.coat_shares[pixel];
-  const auto samples = static_cast<uint>(draws.tree_samples);
-  const Reflector reflector{surface.reflectance, frame, to_viewer, shares, samples};
+  const float density_scale =
+      shares.coat > 0.0f || shares.clearcoat > 0.0f
+          ? emitter_density_scale(draws.world, draws.tree_samples, surface.position_ws)
+          : 0.0f;
+  const Reflector reflector{surface.reflectance, frame, to_viewer, shares, density_scale};
   const LitPoint point{surface.position_ws, surface.normal_ws, surface.geometric_normal_ws};
   const LightReceiver receiver{point, &reflector};
   const uint slots = slot_count(draws);
@@ -42,7 +45,7 @@ void queue_direct_light(const LightDraws& draws, const Media& media, const GBuff
     const LightCandidate candidate = candidate_of_slot(draws, receiver, slot, picks, random);
     if (candidate.perpendicular_irradiance == vec3(0.0f)) continue;
     ReflectedPair pair = sampled_reflection(surface.reflectance, frame, to_viewer, point, candidate,
-                                            shares, samples);
+                                            shares, density_scale);
     if (!media.empty()) {
       const float passed =
           transmittance(media, point.position_ws, candidate.to_light, candidate.distance);
@@ -65,7 +68,7 @@ void queue_direct_light(const LightDraws& draws, const Media& media, const GBuff
   // Reflections see no fog, whether rays or samples find the sky
   pending.push_back({pixel, pair, LightSource::sky});
   shadows.push_back(shadow_ray(point.position_ws, point.geometric_normal_ws,
-                               LightCandidate{sky.direction_ws, infinity(), vec3(1.0f), 0u}));
+                               LightCandidate{sky.direction_ws, infinity(), vec3(1.0f), 0.0f}));
 }
 
 /// Adds light of emitters to a pixel's sum, and its squared luminance to `squares`.

@@ -60,7 +60,7 @@ float emitted_irradiance(const World& world, const LitPoint& point, int samples,
     if (seen.pdf <= 0.0f || cosine <= 0.0f) continue;
     const glm::vec3 radiance = emissive.radiance(emitter, seen.barycentrics, seen.to_point);
     const LightCandidate light = {seen.to_point, seen.distance,
-                                  radiance * (share / (seen.pdf * pick.probability)), 0};
+                                  radiance * (share / (seen.pdf * pick.probability)), 0.0f};
     if (tracer_of(world).occluded(
             shadow_ray(point.position_ws, point.geometric_normal_ws, light))) {
       continue;

@@ -61,6 +61,9 @@ struct CoatPath {
   float alpha;      ///< GGX width of the widest lobe on the path.
   uint stage;       ///< kStageOther, ...
   uint fork;        ///< kForksNowhere, ...
+  /// See emitter_density_scale(): of the samples of emitters of the last coat, or bending surface,
+  /// as of `pdf` [m^2/W].
+  float density_scale;
 };
 LAMBENT_DEVICE_ARRAY(CoatPathArray, CoatPath, 4)
 

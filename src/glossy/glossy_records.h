@@ -31,6 +31,8 @@ struct CoatRaysArguments {
   uint rows;       ///< Every `rows`-th row has rays.
   uint sample_index;
   uint seed;
+  uint emitter_samples;  ///< Samples of the pixels' own direct light.
+  uint padding;
 };
 
 /// Draws the rays that pixels send through their surfaces.
@@ -44,6 +46,8 @@ struct ThroughRaysArguments {
   uint first_index;           ///< Index of the first pixel in the picture.
   uint salt;
   uint seed;
+  uint emitter_samples;  ///< Of the light behind surfaces.
+  uint padding;
 };
 
 /// Shades hits of the sky and of emitters, and writes two field queries for each path.
@@ -59,10 +63,8 @@ struct CoatHitsArguments {
   FloatArray coat_distances;  ///< For paths that gather the light of coats behind glass.
   uint count;                 ///< Number of paths.
   uint bounce;
-  uint emitter_samples;        ///< Samples of the direct light of their hits.
-  uint first_index;            ///< Index of the first pixel in the picture.
-  uint has_field;              ///< 1: there is a field to look up.
-  uint pixel_emitter_samples;  ///< Samples of the pixels' own direct light.
+  uint first_index;  ///< Index of the first pixel in the picture.
+  uint has_field;    ///< 1: there is a field to look up.
 };
 
 /// Adds the light that hits reflect, and appends the paths that go on.
@@ -81,7 +83,7 @@ struct CoatLightArguments {
   uint salt;
   uint seed;
   uint bounce;
-  uint padding;
+  uint emitter_samples;  ///< Of the direct light of hits.
 };
 
 /// Appends the reflected branches of paths that split at glass.
@@ -96,7 +98,7 @@ struct SplitPathsArguments {
   uint salt;
   uint seed;
   uint bounce;
-  uint padding;
+  uint emitter_samples;  ///< Of the direct light of hits.
 };
 
 /// Adds the light behind rough surfaces to the light of the pixels' rays.

@@ -110,13 +110,11 @@ LAMBENT_FN void meet_light(CoatPath path, vec3 radiance, float density,
   }
 }
 
-/// Adds the emission at a path's hit to the light of its pixel's ray. The direct light of the coat
-/// that the path left last takes `path_samples` samples of emitters; that of pixels' coats takes
-/// `pixel_samples`.
-LAMBENT_FN void meet_emitter(CoatPath path, vec3 emission, uint path_samples, uint pixel_samples,
+/// Adds the emission at a path's hit to the light of its pixel's ray. `level`: emission_level() of
+/// what it hit.
+LAMBENT_FN void meet_emitter(CoatPath path, vec3 emission, float level,
                              LAMBENT_INOUT(CoatRay) ray) {
-  uint samples = path.stage == kStageOwnCoat ? pixel_samples : path_samples;
-  meet_light(path, emission, emitter_density(samples), ray);
+  meet_light(path, emission, level * path.density_scale, ray);
 }
 
 /// Adds the sky that a path meets to the light of its pixel's ray. Coats sample its bright part.
@@ -166,12 +164,12 @@ LAMBENT_FN float clearcoat_chance(Reflectance surface, CoatShares shares, float 
 }
 
 /// Continues a path by reflection from a coat or, at random, from the clearcoat on it, where
-/// further rays supply the shares `shares` of their light. Sets the path's pdf, which is that of
-/// the lobe that was chosen, to 0 where it ends: samples of lights are weighed against each lobe by
-/// itself.
+/// further rays supply the shares `shares` of their light. `density_scale` is that of the samples
+/// of emitters at the surface; so it is below. Sets the path's pdf, which is that of the lobe that
+/// was chosen, to 0 where it ends: samples of lights are weighed against each lobe by itself.
 LAMBENT_FN NextRay extend_by_reflection(Reflectance coat, CoatShares shares, vec3 normal_ws,
-                                        vec3 geometric_normal_ws, vec3 to_viewer_ws, vec2 u,
-                                        LAMBENT_INOUT(CoatPath) path) {
+                                        vec3 geometric_normal_ws, vec3 to_viewer_ws,
+                                        float density_scale, vec2 u, LAMBENT_INOUT(CoatPath) path) {
   NextRay next = {normal_ws, 1.0f};
   path.pdf = 0.0f;
   float chance = clearcoat_chance(coat, shares, dot(normal_ws, to_viewer_ws));
@@ -192,6 +190,7 @@ LAMBENT_FN NextRay extend_by_reflection(Reflectance coat, CoatShares shares, vec
   if (drawn.pdf <= 0.0f || dot(geometric_normal_ws, drawn.direction_ws) <= 0.0f) return next;
   path.throughput *= share * drawn.weight;
   path.pdf = drawn.pdf;
+  path.density_scale = density_scale;
   path.alpha = coat.alpha;
   // Only the coat's light is filtered over the coat's lobe
   bool filtered = path.stage == kStageBehindGlass && !from_clearcoat;
@@ -209,12 +208,14 @@ LAMBENT_FN bool samples_lights_behind(CoatPath path, Transmission through) {
 
 /// Continues a path through a surface, or from the inside of its volume, where it may be reflected.
 LAMBENT_FN NextRay extend_through_glass(Transmission through, Reflectance coat, vec3 normal_ws,
-                                        vec3 to_viewer_ws, vec3 u, LAMBENT_INOUT(CoatPath) path) {
+                                        vec3 to_viewer_ws, float density_scale, vec3 u,
+                                        LAMBENT_INOUT(CoatPath) path) {
   ThroughDraw drawn = draw_through(through, coat, normal_ws, to_viewer_ws, u);
   path.throughput *= drawn.weight;
   path.alpha = max(path.alpha, through.alpha);
   if (path.stage == kStageThroughGlass && !goes_straight(through)) {
     path.pdf = drawn.pdf > 0.0f ? drawn.pdf : kNoLightSampling;
+    path.density_scale = density_scale;
   }
   if (drawn.weight == vec3(0.0f)) path.pdf = 0.0f;
   NextRay next = {drawn.direction_ws, drawn.crosses != 0u ? -1.0f : 1.0f};
@@ -242,8 +243,8 @@ LAMBENT_FN bool forks(CoatPath path, Transmission through, Reflectance coat, flo
 /// Continues a path from its hit on bounce `bounce`: through the surface, or by reflection from its
 /// coat. Where both are possible, one is drawn at random, unless the path has split there.
 LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, CoatShares shares, vec3 normal_ws,
-                         vec3 geometric_normal_ws, vec3 to_viewer_ws, uint bounce,
-                         RandomStream random, LAMBENT_INOUT(CoatPath) path) {
+                         vec3 geometric_normal_ws, vec3 to_viewer_ws, float density_scale,
+                         uint bounce, RandomStream random, LAMBENT_INOUT(CoatPath) path) {
   vec2 u = next_uniform2(random);
   float n_dot_v = dot(normal_ws, to_viewer_ws);
   if (path.fork == kForkCrosses) {
@@ -251,36 +252,37 @@ LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, CoatShares shar
     if (through.kind == kLeavesVolume) {
       path.throughput *= 1.0f - inner_reflection(n_dot_v, through.eta);
     }
-    return extend_through_glass(through, coat, normal_ws, to_viewer_ws, vec3(u, kNeverReflected),
-                                path);
+    return extend_through_glass(through, coat, normal_ws, to_viewer_ws, density_scale,
+                                vec3(u, kNeverReflected), path);
   }
   float crossing = crossing_chance(through, coat, shares.coat, n_dot_v, bounce);
   // Draw no further number where the surface transmits nothing
   if (crossing > 0.0f && (crossing >= 1.0f || next_uniform(random) < crossing)) {
     path.throughput /= crossing;
-    return extend_through_glass(through, coat, normal_ws, to_viewer_ws,
+    return extend_through_glass(through, coat, normal_ws, to_viewer_ws, density_scale,
                                 vec3(u, next_uniform(random)), path);
   }
   if (crossing > 0.0f) path.throughput /= 1.0f - crossing;
-  return extend_by_reflection(coat, shares, normal_ws, geometric_normal_ws, to_viewer_ws, u, path);
+  return extend_by_reflection(coat, shares, normal_ws, geometric_normal_ws, to_viewer_ws,
+                              density_scale, u, path);
 }
 
 /// Splits a path: returns the ray of the reflected branch, and marks `path` as the transmitted one.
 LAMBENT_FN NextRay go_on_reflected(Transmission through, Reflectance coat, CoatShares shares,
                                    vec3 normal_ws, vec3 geometric_normal_ws, vec3 to_viewer_ws,
-                                   RandomStream random, LAMBENT_INOUT(CoatPath) path,
-                                   LAMBENT_INOUT(CoatPath) branch) {
+                                   float density_scale, RandomStream random,
+                                   LAMBENT_INOUT(CoatPath) path, LAMBENT_INOUT(CoatPath) branch) {
   vec2 u = next_uniform2(random);
   branch = path;
   branch.fork = kForkReflected;
   path.fork = kForkCrosses;
   if (through.kind != kLeavesVolume) {
-    return extend_by_reflection(coat, shares, normal_ws, geometric_normal_ws, to_viewer_ws, u,
-                                branch);
+    return extend_by_reflection(coat, shares, normal_ws, geometric_normal_ws, to_viewer_ws,
+                                density_scale, u, branch);
   }
   branch.throughput *= inner_reflection(dot(normal_ws, to_viewer_ws), through.eta);
-  return extend_through_glass(through, coat, normal_ws, to_viewer_ws, vec3(u, kAlwaysReflected),
-                              branch);
+  return extend_through_glass(through, coat, normal_ws, to_viewer_ws, density_scale,
+                              vec3(u, kAlwaysReflected), branch);
 }
 
 LAMBENT_END

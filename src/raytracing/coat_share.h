@@ -19,11 +19,6 @@ LAMBENT_BEGIN
 const float kLastTracedRoughness = 0.75f;
 const float kFirstCachedRoughness = 0.95f;
 
-// Assumed density of one sample of emitters [1/sr]: that of a lamp which subtends a tenth of a
-// steradian. Where a coat's lobe is denser towards a lamp than all samples together, its rays
-// estimate the lamp's light. The value affects noise alone: the weights sum to 1 whatever it is.
-const float kEmitterDensity = 10.0f;
-
 /// Shares of the coat's and the clearcoat's light that come from rays of their own.
 struct CoatShares {
   float coat;
@@ -66,32 +61,41 @@ LAMBENT_FN CoatShares pixel_coat_shares(Reflectance surface) {
   return shares;
 }
 
-/// Density with which `emitter_samples` samples of emitters are taken to find one [1/sr].
-LAMBENT_FN float emitter_density(uint emitter_samples) {
-  return kEmitterDensity * float(emitter_samples);
+// Samples of emitters and rays of coats both find lamps. Where a lobe is denser towards a lamp than
+// the samples, its rays estimate the lamp's light. The weights sum to 1 whatever density is assumed
+// for the samples, which affects noise alone: a lobe whose tail reaches a lamp more densely than
+// its samples, but not than they were taken to be, leaves bright specks.
+
+// Least irradiance from all around that densities are divided by [W/m^2].
+const float kLeastLightAround = 1e-30f;
+
+// Samples of emitters are this many times as dense as if lights all around were picked, and lit any
+// place: half of the lights are below a surface's horizon, and resampling prefers those that its
+// lobes reflect.
+const float kAimOfSamples = 4.0f;
+
+/// Factor from an emitter's level, see LightCandidate, to the density with which `samples` samples
+/// of emitters find it [m^2/W]. Lights are picked about in proportion to what arrives from them:
+/// `light_around` is what arrives of all of them from all around, unoccluded [W/m^2].
+LAMBENT_FN float emitter_density_scale(uint samples, float light_around) {
+  return kAimOfSamples * float(samples) / max(light_around, kLeastLightAround);
 }
 
-/// Weight of an emitter that a coat's ray hit, where the direct light takes `emitter_samples`
-/// samples: found_light_weight() with an assumed density in place of that of the sampling.
-LAMBENT_FN float found_emitter_weight(float pdf, uint emitter_samples) {
-  return found_light_weight(pdf, emitter_density(emitter_samples));
-}
-
-/// Weight of a sample of emitters in a coat's direct light, where rays supply the share
-/// `coat_share` of the coat's light. Directions are in the frame of the normal.
+/// Weight of a sample of emitters of this density in a coat's direct light, where rays supply the
+/// share `coat_share` of the coat's light. Directions are in the frame of the normal.
 LAMBENT_FN float sampled_emitter_weight(Reflectance surface, vec3 to_viewer, vec3 to_light,
-                                        float coat_share, uint emitter_samples) {
+                                        float coat_share, float density) {
   if (coat_share <= 0.0f) return 1.0f;
   float pdf = pdf_ggx_reflection(to_viewer, to_light, surface.alpha);
-  return 1.0f - coat_share * found_emitter_weight(pdf, emitter_samples);
+  return 1.0f - coat_share * found_light_weight(pdf, density);
 }
 
 /// The same for a surface's clearcoat.
 LAMBENT_FN float sampled_emitter_weight(SurfaceLayers layers, vec3 to_viewer, vec3 to_light,
-                                        float coat_share, uint emitter_samples) {
+                                        float coat_share, float density) {
   if (coat_share <= 0.0f) return 1.0f;
   float pdf = pdf_clearcoat(layers, to_viewer, to_light);
-  return 1.0f - coat_share * found_emitter_weight(pdf, emitter_samples);
+  return 1.0f - coat_share * found_light_weight(pdf, density);
 }
 
 LAMBENT_END

@@ -44,10 +44,10 @@ struct Reflector {
   const Reflectance& reflectance;
   Frame frame;          ///< Frame of the shading normal.
   glm::vec3 to_viewer;  ///< Unit, in the frame.
-  /// Shares of the coats' light that come from rays of their own, and the number of samples of
-  /// emitters; see sampled_reflection().
+  /// Shares of the coats' light that come from rays of their own, and the scale of densities of
+  /// samples of emitters; see sampled_reflection().
   CoatShares shares{};
-  uint samples = 1;
+  float density_scale = 0.0f;
 };
 
 /// How fog scatters light to a viewer.
@@ -56,11 +56,11 @@ struct FogReceiver {
   glm::vec3 view_direction_ws;  ///< Unit; direction of the ray from the viewer.
 };
 
-/// How a rough surface transmits light to a viewer, given that so many samples of emitters are
-/// taken.
+/// How a rough surface transmits light to a viewer, and the scale of densities of samples of
+/// emitters; see sampled_transmission().
 struct ThroughReceiver {
   const Transmitter& transmitter;
-  uint samples = 1;
+  float density_scale = 0.0f;
 };
 
 /// What candidates are drawn for: irradiance at a point, or the light that a reflector, fog or a
@@ -131,7 +131,18 @@ inline vec3 emitted_radiance(const LightDraws& draws, const EmitterRecord& emitt
   return emissive_of(draws.world).radiance(emitter, barycentrics, direction_ws);
 }
 
+inline float emission_level(const LightDraws& draws, const EmitterRecord& emitter) {
+  return emissive_of(draws.world).level(emitter);
+}
+
 #include "raytracing/direct_light.inl.h"
+
+/// The scale of densities, see emitter_density_scale(), of a number of samples of emitters at a
+/// point.
+inline float emitter_density_scale(const World& world, int samples, const vec3& position_ws) {
+  return emitter_density_scale(static_cast<uint>(samples),
+                               lights_of(world).light_around(position_ws));
+}
 
 /// Radiance that fog scatters of a candidate's light, divided by its extinction.
 inline vec3 scattered_light(const FogReceiver& fog, const vec3& position_ws,
@@ -145,15 +156,15 @@ inline float target_of(const LightReceiver& receiver, LightCandidate light) {
     return luminance(scattered_light(*receiver.fog, receiver.point.position_ws, light));
   }
   if (receiver.through != nullptr) {
-    return luminance(
-        sampled_transmission(receiver.through->transmitter, light, receiver.through->samples));
+    return luminance(sampled_transmission(receiver.through->transmitter, light,
+                                          receiver.through->density_scale));
   }
   if (receiver.reflector == nullptr) {
     return luminance(unoccluded_irradiance(receiver.point, receiver.shape, light));
   }
   const Reflector& to = *receiver.reflector;
   const ReflectedPair pair = sampled_reflection(to.reflectance, to.frame, to.to_viewer,
-                                                receiver.point, light, to.shares, to.samples);
+                                                receiver.point, light, to.shares, to.density_scale);
   return luminance(pair.diffuse + pair.specular);
 }
 

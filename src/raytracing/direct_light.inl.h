@@ -22,6 +22,7 @@
 //   EmitterRecord fetch_emitter(DrawsRef draws, uint emitter)
 //   vec3 emitted_radiance(DrawsRef draws, EmitterRecord emitter, vec2 barycentrics,
 //                         vec3 direction_ws)
+//   float emission_level(DrawsRef draws, EmitterRecord emitter)
 
 /// Luminance of the light that a receiver would send on of an unoccluded candidate: the target
 /// function of resampling. The includer defines it after this file.
@@ -50,24 +51,25 @@ LAMBENT_FN vec3 unoccluded_irradiance(LitPointRef point, SeenShape shape, LightC
 
 /// Radiance that a surface reflects of an unoccluded candidate to a viewer [W/(m^2 sr)]. `frame` is
 /// that of the point's normal, in which `to_viewer` is given. The share of emitters' light that
-/// rays of coats supply is left out, given that `samples` samples of emitters are taken.
+/// rays of coats supply is left out; `density_scale`: see emitter_density_scale().
 LAMBENT_FN ReflectedPair sampled_reflection(Reflectance reflectance, Frame frame, vec3 to_viewer,
                                             LitPointRef point, LightCandidate light,
-                                            CoatShares shares, uint samples) {
+                                            CoatShares shares, float density_scale) {
   ReflectedPair reflected = {vec3(0.0f), vec3(0.0f)};
   if (dot(point.geometric_normal_ws, light.to_light) <= 0.0f) return reflected;
   vec3 to_light = to_local(frame, light.to_light);
   ReflectedLobes lobes = evaluate_lobes(reflectance, to_viewer, to_light);
   reflected.diffuse = lobes.diffuse * light.perpendicular_irradiance;
   reflected.specular = lobes.specular * light.perpendicular_irradiance;
-  bool of_emitter = light.from_emitter != 0u;
+  bool of_emitter = light.emission_level > 0.0f;
+  float density = light.emission_level * density_scale;
   if (of_emitter) {
     reflected.specular *=
-        sampled_emitter_weight(reflectance, to_viewer, to_light, shares.coat, samples);
+        sampled_emitter_weight(reflectance, to_viewer, to_light, shares.coat, density);
   }
   if (lobes.clearcoat > 0.0f) {
     float weight = of_emitter ? sampled_emitter_weight(reflectance.layers, to_viewer, to_light,
-                                                       shares.clearcoat, samples)
+                                                       shares.clearcoat, density)
                               : 1.0f;
     reflected.specular += lobes.clearcoat * weight * light.perpendicular_irradiance;
   }
@@ -82,7 +84,7 @@ LAMBENT_FN uint slot_count(DrawsRef draws) {
 /// The candidate for a light without extent.
 LAMBENT_FN LightCandidate punctual_candidate(LightRecord light, LitPointRef point) {
   PunctualSample sampled = sample_punctual(light, point.position_ws);
-  LightCandidate candidate = {sampled.to_light, sampled.distance, sampled.irradiance, 0u};
+  LightCandidate candidate = {sampled.to_light, sampled.distance, sampled.irradiance, 0.0f};
   return candidate;
 }
 
@@ -110,7 +112,8 @@ LAMBENT_FN LightCandidate drawn_candidate(DrawsRef draws, LitPointRef point, Lig
   }
   vec3 radiance = emitted_radiance(draws, emitter, seen.barycentrics, seen.to_point);
   LightCandidate candidate = {seen.to_point, seen.distance,
-                              radiance / (seen.pdf * pick.probability), 1u};
+                              radiance / (seen.pdf * pick.probability),
+                              emission_level(draws, emitter)};
   return candidate;
 }
 

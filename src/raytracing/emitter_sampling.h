@@ -19,12 +19,13 @@ struct LightCandidate {
   vec3 to_light;                  ///< Unit.
   float distance;                 ///< To the source [m]; infinite for directional lights.
   vec3 perpendicular_irradiance;  ///< On a surface that faces the source [W/m^2].
-  uint from_emitter;              ///< 1: the source is an emissive surface, which rays can hit.
+  /// emission_level() of an emissive surface, which rays can hit, too [W/(m^2 sr)]; 0 for others.
+  float emission_level;
 };
 
 /// A candidate without light.
 LAMBENT_FN LightCandidate no_candidate() {
-  LightCandidate none = {vec3(0.0f), 0.0f, vec3(0.0f), 0u};
+  LightCandidate none = {vec3(0.0f), 0.0f, vec3(0.0f), 0.0f};
   return none;
 }
 

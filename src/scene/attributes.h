@@ -6,6 +6,7 @@
 #include "scene/coverage.h"
 #include "scene/texture.h"
 #include "scene/transmission.h"
+#include "shared/color.h"
 
 namespace lambent {
 

@@ -157,6 +157,17 @@ LAMBENT_FN vec3 emission_at(SceneRef scene, MeshRef mesh, MaterialRef material, 
   return emission;
 }
 
+/// The material of an instance.
+LAMBENT_FN MaterialRef material_of(SceneRef scene, uint instance) {
+  return fetch_material(scene, fetch_mesh(scene, fetch_instance(scene, instance).mesh).material);
+}
+
+/// Luminance that a material emits without its textures [W/(m^2 sr)]: about its brightest.
+LAMBENT_FN float emission_level(MaterialRef material) {
+  if (!may_emit(material)) return 0.0f;
+  return luminance(is_unlit(material) ? vec3(material.base_color) : vec3(material.emission));
+}
+
 /// Share of the surface that is covered by a clearcoat, 0 to 1.
 LAMBENT_FN float clearcoat_at(SceneRef scene, MeshRef mesh, MaterialRef material,
                               TrianglePointRef p, ConeShare cone_share) {

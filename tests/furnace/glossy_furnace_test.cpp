@@ -15,20 +15,15 @@
 namespace lambent::glossy_furnace_test {
 namespace {
 
-constexpr int kSide = 64;  // of the picture [pixels]
-
-// A pixel. Lamps all around are noise in narrow lobes: the ratio of a metal of roughness 0.25 has
-// a deviation of 1.7 % by 16 samples, over eight seeds, and so these have more.
-constexpr int kSamples = 16;
-constexpr int kNarrowSamples = 160;
-constexpr float kWidestNarrowRoughness = 0.5f;
+constexpr int kSide = 64;     // of the picture [pixels]
+constexpr int kSamples = 16;  // a pixel
 
 // The project's bar for energy. A coat of index 1 reflects at grazing angles alone, where the fit
-// of the Fresnel term's mean is 2 % off. Under emitters the bars are about two deviations.
+// of the Fresnel term's mean is 2 % off. Rough dielectrics with rays on every second row lose up to
+// 1 % of emitters all around: a mean over few rays is one of weights, too.
 constexpr double kTolerance = 0.005;
 constexpr double kGrazingTolerance = 0.02;
-constexpr double kMetalUnderEmitters = 0.01;
-constexpr double kDielectricUnderEmitters = 0.02;
+constexpr double kDielectricUnderEmitters = 0.01;
 
 // Roughnesses of mirrors, of lobes that lamps' samples and rays share, of the change from rays to
 // the field's light, and beyond.
@@ -44,15 +39,8 @@ struct Case {
 };
 
 double tolerance_of(const Case& c) {
-  if (c.source == Source::emitters && c.roughness > 0.0f) {
-    return c.metallic > 0.0f ? kMetalUnderEmitters : kDielectricUnderEmitters;
-  }
+  if (c.source == Source::emitters && c.metallic == 0.0f) return kDielectricUnderEmitters;
   return c.ior > 1.0f ? kTolerance : kGrazingTolerance;
-}
-
-int samples_of(const Case& c) {
-  const bool narrow = c.roughness > 0.0f && c.roughness < kWidestNarrowRoughness;
-  return c.source == Source::emitters && narrow ? kNarrowSamples : kSamples;
 }
 
 /// A ball with a coat.
@@ -92,7 +80,7 @@ TEST_P(GlossyFurnace, ReflectsItsAlbedo) {
   const IrradianceField field = test::make_field(stage, settings, 2);
   FrameSettings frame;
   frame.width = frame.height = kSide;
-  frame.samples = samples_of(GetParam());
+  frame.samples = kSamples;
   const double expected = test::mean_over_ball(stage, kSide, kSamples, reflected_share);
   for (const int rows : {1, 2}) {
     frame.glossy_rows = rows;

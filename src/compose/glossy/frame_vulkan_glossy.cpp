@@ -148,7 +148,9 @@ bool FramePassesVulkan::trace_coats(const Band& around, std::uint32_t seed, cons
                                      width,
                                      static_cast<uint>(request_->settings.glossy_rows),
                                      sample_,
-                                     seed};
+                                     seed,
+                                     static_cast<uint>(request_->settings.emissive_samples),
+                                     0u};
     to.run(kernels_.coat_rays, drawn, pixels);
   });
   path_pass_ = "glossy";
@@ -201,22 +203,19 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
     world_.tracer().closest_hits(to, {hits.rays, paths}, hits.hits);
     to.barrier();
     m.gather_shading.pixel_surfaces(to, stage(), hits, 0, false, met);
-    const CoatHitsArguments shaded = {
-        {world_.scene().address()},
-        hits.hits,
-        met.points,
-        met.surfaces,
-        {from.paths.address()},
-        {from.pixels.address()},
-        {m.path_queries.address()},
-        {m.coat_rays.address()},
-        {m.coat_distances.address()},
-        paths,
-        bounce,
-        static_cast<uint>(request_->settings.reflected_emissive_samples),
-        first_index,
-        has_field ? 1u : 0u,
-        static_cast<uint>(request_->settings.emissive_samples)};
+    const CoatHitsArguments shaded = {{world_.scene().address()},
+                                      hits.hits,
+                                      met.points,
+                                      met.surfaces,
+                                      {from.paths.address()},
+                                      {from.pixels.address()},
+                                      {m.path_queries.address()},
+                                      {m.coat_rays.address()},
+                                      {m.coat_distances.address()},
+                                      paths,
+                                      bounce,
+                                      first_index,
+                                      has_field ? 1u : 0u};
     to.run(kernels_.coat_hits, shaded, paths);
     to.barrier();
     if (samples_behind) sample_lights_behind(to, met, paths, salt, &from);
@@ -247,21 +246,22 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
     if (!has_field) to.fill(m.path_answers, 0u);
     to.fill(next.count, 0u);
     to.barrier();
-    const CoatLightArguments lit = {{m.path_points.address()},
-                                    {m.path_surfaces.address()},
-                                    {m.path_diffuse.address()},
-                                    {m.path_specular.address()},
-                                    {m.path_answers.address()},
-                                    {from.paths.address()},
-                                    {from.pixels.address()},
-                                    next.list(),
-                                    {m.coat_rays.address()},
-                                    paths,
-                                    first_index,
-                                    salt,
-                                    path_seed_,
-                                    bounce,
-                                    0u};
+    const CoatLightArguments lit = {
+        {m.path_points.address()},
+        {m.path_surfaces.address()},
+        {m.path_diffuse.address()},
+        {m.path_specular.address()},
+        {m.path_answers.address()},
+        {from.paths.address()},
+        {from.pixels.address()},
+        next.list(),
+        {m.coat_rays.address()},
+        paths,
+        first_index,
+        salt,
+        path_seed_,
+        bounce,
+        static_cast<uint>(request_->settings.reflected_emissive_samples)};
     to.run(kernels_.coat_light, lit, paths);
   });
 }

@@ -23,9 +23,17 @@ void FramePassesVulkan::transmission() {
     to.fill(m.forks.count, 0u);
     to.barrier();
     const ThroughRaysArguments drawn = {
-        {m.points.address()},   {m.surfaces.address()},       {m.coat_rays.address()},
-        m.path_lists[0].list(), {m.coat_distances.address()}, pixels_,
-        first_pixel_,           coat_salt(salt, 0u),          request_->settings.seed};
+        {m.points.address()},
+        {m.surfaces.address()},
+        {m.coat_rays.address()},
+        m.path_lists[0].list(),
+        {m.coat_distances.address()},
+        pixels_,
+        first_pixel_,
+        coat_salt(salt, 0u),
+        request_->settings.seed,
+        static_cast<uint>(request_->settings.reflected_emissive_samples),
+        0u};
     to.run(kernels_.through_rays, drawn, pixels_);
     if (!samples_behind) return;
     to.barrier();
@@ -72,17 +80,18 @@ void FramePassesVulkan::split_paths(const PathBuffers& from, std::uint32_t count
                                     std::uint32_t salt) {
   add(path_pass_, [=, this, &from](Recorder& to) {
     const FrameMemory& m = memory_;
-    const SplitPathsArguments arguments = {{m.path_points.address()},
-                                           {m.path_surfaces.address()},
-                                           {from.paths.address()},
-                                           {from.pixels.address()},
-                                           m.forks.list(),
-                                           count,
-                                           first_index,
-                                           salt,
-                                           path_seed_,
-                                           bounce,
-                                           0u};
+    const SplitPathsArguments arguments = {
+        {m.path_points.address()},
+        {m.path_surfaces.address()},
+        {from.paths.address()},
+        {from.pixels.address()},
+        m.forks.list(),
+        count,
+        first_index,
+        salt,
+        path_seed_,
+        bounce,
+        static_cast<uint>(request_->settings.reflected_emissive_samples)};
     to.run(kernels_.split_paths, arguments, count);
   });
 }

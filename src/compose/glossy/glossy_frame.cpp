@@ -9,6 +9,7 @@
 #include "compose/glossy/path_rays.h"
 #include "core/parallel.h"
 #include "raytracing/world_access.h"
+#include "scene/attributes.h"
 #include "scene/environment_sampling.h"
 
 namespace lambent {
@@ -95,8 +96,14 @@ std::uint64_t Glossy::send_rays(const GlossySettings& settings,
         }
         rays_[first + i].direction_ws = drawn.direction_ws;
         rays_[first + i].pdf = drawn.pdf;
-        paths_.paths[first + i] = {vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kStageOwnCoat,
-                                   kForksNowhere};
+        paths_.paths[first + i] = {
+            vec3(1.0f),
+            drawn.pdf,
+            surface.reflectance.alpha,
+            kStageOwnCoat,
+            kForksNowhere,
+            emitter_density_scale(settings.world, settings.frame.emissive_samples,
+                                  surface.position_ws)};
         paths_.next[first + i] = ray_from(surface, {drawn.direction_ws, 1.0f});
         paths_.cones[first + i] =
             reflected_cone(pixel_cone(settings, surface, seen.to_viewer_ws[i]), drawn.pdf);
@@ -152,9 +159,8 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
       path.throughput *= volume_transmittance(surface.transmission, hits[k].distance);
       met_.hit[i] = 1;
       met_.surfaces[i] = surface;
-      meet_emitter(path, surface.emission,
-                   static_cast<uint>(settings.frame.reflected_emissive_samples),
-                   static_cast<uint>(settings.frame.emissive_samples), rays_[i]);
+      meet_emitter(path, surface.emission, emission_level(material_of(scene, hits[k].instance)),
+                   rays_[i]);
       met_.coat_shares[i] =
           regularize_lobes(dot(surface.normal_ws, met_.to_viewer_ws[i]),
                            settings.field != nullptr ? surface.gi_share : 0.0f, bounce,
@@ -215,7 +221,8 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
           first_index + static_cast<uint>(i), coat_salt(salt_, bounce), ~settings.frame.seed);
       const NextRay next =
           go_on(surface.transmission, surface.reflectance, met_.coat_shares[i], surface.normal_ws,
-                surface.geometric_normal_ws, met_.to_viewer_ws[i], bounce, random, path);
+                surface.geometric_normal_ws, met_.to_viewer_ws[i],
+                density_scale_at_hit(settings, surface), bounce, random, path);
       if (path.pdf <= 0.0f) continue;
       paths_.next[i] = ray_from(surface, next);
       paths_.cones[i] = reflected_cone(paths_.cones[i], path.pdf);

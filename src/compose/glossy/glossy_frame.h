@@ -35,7 +35,7 @@ struct Paths {
 
   /// Makes room for this many pixels, none of which has a path yet.
   void start(std::size_t pixels) {
-    paths.assign(pixels, {vec3(1.0f), 0.0f, 0.0f, kStageOther, kForksNowhere});
+    paths.assign(pixels, {vec3(1.0f), 0.0f, 0.0f, kStageOther, kForksNowhere, 0.0f});
     next.resize(pixels);
     cones.resize(pixels);
   }

@@ -33,8 +33,9 @@ void queue_lights_behind(const LightDraws& draws, const Media& media, const Surf
   const Frame frame = make_frame(surface.normal_ws);
   const Transmitter transmitter{surface.transmission, surface.reflectance, frame,
                                 to_local(frame, to_viewer_ws), surface.geometric_normal_ws};
-  const auto samples = static_cast<uint>(draws.tree_samples);
-  const ThroughReceiver through{transmitter, samples};
+  const float density_scale =
+      emitter_density_scale(draws.world, draws.tree_samples, surface.position_ws);
+  const ThroughReceiver through{transmitter, density_scale};
   const LightReceiver receiver{
       {surface.position_ws, -surface.normal_ws, -surface.geometric_normal_ws},
       nullptr,
@@ -46,15 +47,15 @@ void queue_lights_behind(const LightDraws& draws, const Media& media, const Surf
     shadows.push_back(ray_behind(surface, light));
   };
   for_each_light(draws, receiver, random, [&](const LightCandidate& light) {
-    vec3 transmitted = sampled_transmission(transmitter, light, samples);
+    vec3 transmitted = sampled_transmission(transmitter, light, density_scale);
     // Rays see no fog, and nor do samples of what they find, too
-    if (light.from_emitter == 0u && !media.empty()) {
+    if (light.emission_level <= 0.0f && !media.empty()) {
       transmitted *= transmittance(media, surface.position_ws, light.to_light, light.distance);
     }
     queue(light, transmitted);
   });
   const SkyBehind sky = sample_sky_behind(sky_of(draws.world), transmitter, random);
-  queue({sky.direction_ws, infinity(), vec3(1.0f), 0u}, sky.light);
+  queue({sky.direction_ws, infinity(), vec3(1.0f), 0.0f}, sky.light);
 }
 
 }  // namespace

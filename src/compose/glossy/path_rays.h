@@ -5,6 +5,7 @@
 #include "compose/glossy/ray_reuse.h"
 #include "glossy/path_math.h"
 #include "raytracing/camera_rays.h"
+#include "raytracing/direct_light.h"
 #include "shared/rays.h"
 
 namespace lambent {
@@ -15,6 +16,13 @@ inline Ray ray_from(const Surface& surface, const NextRay& next) {
   ray.origin = offset_ray_origin(surface.position_ws, next.side * surface.geometric_normal_ws);
   ray.direction = next.direction_ws;
   return ray;
+}
+
+/// The scale of densities, see emitter_density_scale(), of the samples of emitters at a surface
+/// that paths meet.
+inline float density_scale_at_hit(const GlossySettings& settings, const Surface& surface) {
+  return emitter_density_scale(settings.world, settings.frame.reflected_emissive_samples,
+                               surface.position_ws);
 }
 
 /// The cone of a pixel's primary ray at its hit.

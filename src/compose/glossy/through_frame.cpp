@@ -23,12 +23,12 @@ std::uint64_t Glossy::send_through(const GlossySettings& settings, const GBuffer
     RandomStream random = make_random_stream(first_index + static_cast<uint>(i),
                                              coat_salt(salt_, 0u), ~settings.frame.seed);
     CoatPath& path = paths_.paths[i];
-    path = {vec3(1.0f), kNoLightSampling, surface.transmission.alpha, kStageThroughGlass,
-            kForksNext};
+    path = {vec3(1.0f),         kNoLightSampling, surface.transmission.alpha,
+            kStageThroughGlass, kForksNext,       0.0f};
     const vec2 u = next_uniform2(random);
-    const NextRay next =
-        extend_through_glass(surface.transmission, surface.reflectance, surface.normal_ws,
-                             seen.to_viewer_ws[i], vec3(u, next_uniform(random)), path);
+    const NextRay next = extend_through_glass(
+        surface.transmission, surface.reflectance, surface.normal_ws, seen.to_viewer_ws[i],
+        density_scale_at_hit(settings, surface), vec3(u, next_uniform(random)), path);
     paths_.next[i] = ray_from(surface, next);
     paths_.cones[i] = reflected_cone(pixel_cone(settings, surface, seen.to_viewer_ws[i]), path.pdf);
     sent += path.pdf > 0.0f ? 1 : 0;
@@ -90,10 +90,10 @@ void Glossy::split_paths(const GlossySettings& settings, std::uint32_t bounce) {
       }
       const RandomStream random = make_random_stream(
           first_index + static_cast<uint>(i), coat_salt(salt_, bounce), ~settings.frame.seed);
-      const NextRay next =
-          go_on_reflected(surface.transmission, surface.reflectance, met_.coat_shares[i],
-                          surface.normal_ws, surface.geometric_normal_ws, met_.to_viewer_ws[i],
-                          random, paths_.paths[i], forks_.paths[i]);
+      const NextRay next = go_on_reflected(
+          surface.transmission, surface.reflectance, met_.coat_shares[i], surface.normal_ws,
+          surface.geometric_normal_ws, met_.to_viewer_ws[i],
+          density_scale_at_hit(settings, surface), random, paths_.paths[i], forks_.paths[i]);
       forks_.next[i] = ray_from(surface, next);
       forks_.cones[i] = reflected_cone(paths_.cones[i], forks_.paths[i].pdf);
     }

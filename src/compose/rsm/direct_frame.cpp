@@ -77,7 +77,7 @@ class RowShading {
     if (light.perpendicular_irradiance == vec3(0.0f)) return {vec3(0.0f), vec3(0.0f)};
     const Surface& surface = gbuffer_.surfaces[pixel.in_band];
     ReflectedPair pair = sampled_reflection(surface.reflectance, pixel.frame, pixel.to_viewer,
-                                            pixel.point, light, {}, 1);
+                                            pixel.point, light, {}, 0.0f);
     if (!media_.empty()) {
       const float passed =
           transmittance(media_, pixel.point.position_ws, light.to_light, light.distance);

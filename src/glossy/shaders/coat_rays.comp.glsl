@@ -31,6 +31,7 @@ void main() {
   args.coat_rays.at[i].direction_ws = drawn.direction_ws;
   args.coat_rays.at[i].pdf = drawn.pdf;
   CoatPath path =
-      CoatPath(vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kStageOwnCoat, kForksNowhere);
+      CoatPath(vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kStageOwnCoat, kForksNowhere,
+               emitter_density_scale(args.emitter_samples, surface.light_around));
   append_path(args.list, i, path, surface.cone, point, NextRay(drawn.direction_ws, 1.0f));
 }

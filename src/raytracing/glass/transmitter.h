@@ -28,12 +28,14 @@ LAMBENT_FN ThroughLobe through_lobe(Transmitter at, vec3 to_light_ws) {
                           to_local(at.frame, to_light_ws));
 }
 
-/// Radiance that it transmits of an unoccluded candidate [W/(m^2 sr)], given that `samples` samples
-/// of emitters are taken. The share of emitters' light that rays supply is left out.
-LAMBENT_FN vec3 sampled_transmission(Transmitter at, LightCandidate light, uint samples) {
+/// Radiance that it transmits of an unoccluded candidate [W/(m^2 sr)]. The share of emitters' light
+/// that rays supply is left out; `density_scale`: see emitter_density_scale().
+LAMBENT_FN vec3 sampled_transmission(Transmitter at, LightCandidate light, float density_scale) {
   ThroughLobe lobe = through_lobe(at, light.to_light);
   vec3 transmitted = lobe.value * light.perpendicular_irradiance;
-  if (light.from_emitter != 0u) transmitted *= 1.0f - found_emitter_weight(lobe.pdf, samples);
+  if (light.emission_level > 0.0f) {
+    transmitted *= 1.0f - found_light_weight(lobe.pdf, light.emission_level * density_scale);
+  }
   return transmitted;
 }
 

@@ -12,14 +12,14 @@
 struct ThroughReceiver {
   LitPointRecord point;
   Transmitter transmitter;
-  uint samples;
+  float density_scale;
 };
 #define ReceiverRef ThroughReceiver
 
 #include "raytracing/shaders/direct_light.glsl"
 
 float target_of(ThroughReceiver receiver, LightCandidate light) {
-  return luminance(sampled_transmission(receiver.transmitter, light, receiver.samples));
+  return luminance(sampled_transmission(receiver.transmitter, light, receiver.density_scale));
 }
 PickLobe lobe_of(ThroughReceiver receiver) {
   return pick_lobe(receiver.transmitter);
@@ -60,7 +60,9 @@ void main() {
   point.normal_ws = -point.normal_ws;
   point.geometric_normal_ws = -point.geometric_normal_ws;
   point.albedo_shape = 0u;
-  ThroughReceiver receiver = ThroughReceiver(point, transmitter, args.tree_samples);
+  ThroughReceiver receiver =
+      ThroughReceiver(point, transmitter,
+                      emitter_density_scale(args.tree_samples, surface.light_around));
   RandomStream random = make_random_stream(point.random_index, args.salt, args.seed);
   uint slots = slot_count(args);
   LightPicks picks;
@@ -70,9 +72,9 @@ void main() {
     vec3 transmitted = vec3(0.0f);
     if (asks) {
       light = candidate_of_slot(args, receiver, slot, picks, random);
-      transmitted = sampled_transmission(transmitter, light, args.tree_samples);
+      transmitted = sampled_transmission(transmitter, light, receiver.density_scale);
       // Rays see no fog, and nor do samples of what they find, too
-      if (light.from_emitter == 0u) {
+      if (light.emission_level <= 0.0f) {
         transmitted *= transmittance(args, point.position_ws, light.to_light, light.distance);
       }
     }
@@ -81,7 +83,7 @@ void main() {
   if (args.sky_slots != 0u) {
     SkyBehind sky = SkyBehind(vec3(0.0f), vec3(0.0f));
     if (asks) sky = sample_sky_behind(args.scene.at[0].environment, transmitter, random);
-    LightCandidate light = LightCandidate(sky.direction_ws, infinity(), vec3(1.0f), 0u);
+    LightCandidate light = LightCandidate(sky.direction_ws, infinity(), vec3(1.0f), 0.0f);
     rays += store(slots * args.count + i, point, light, sky.light);
   }
   if (rays > 0u) atomicAdd(args.ray_count.at[0], rays);

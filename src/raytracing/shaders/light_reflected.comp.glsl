@@ -15,7 +15,7 @@ struct ReflectingReceiver {
   Frame frame;
   vec3 to_viewer;  ///< Unit, in the frame.
   CoatShares shares;
-  uint samples;
+  float density_scale;
 };
 #define ReceiverRef ReflectingReceiver
 
@@ -23,7 +23,7 @@ struct ReflectingReceiver {
 
 ReflectedPair reflection(ReflectingReceiver to, LightCandidate light) {
   return sampled_reflection(to.reflectance, to.frame, to.to_viewer, to.point, light, to.shares,
-                            to.samples);
+                            to.density_scale);
 }
 
 float target_of(ReflectingReceiver receiver, LightCandidate light) {
@@ -51,7 +51,8 @@ void main() {
   Frame frame = make_frame(point.normal_ws);
   ReflectingReceiver receiver =
       ReflectingReceiver(point, surface.reflectance, frame, to_local(frame, surface.to_viewer_ws),
-                         surface.coat_shares, args.tree_samples);
+                         surface.coat_shares,
+                         emitter_density_scale(args.tree_samples, surface.light_around));
   bool asks = point.random_index != kNoDirectLight;
   RandomStream random = make_random_stream(point.random_index, args.salt, args.seed);
   uint slots = slot_count(args);
@@ -82,7 +83,7 @@ void main() {
       // Reflections see no fog, whether rays or samples find the sky
       pair = ReflectedPair(sky.light.clearcoat, sky.light.coat);
       if (pair.diffuse + pair.specular != vec3(0.0f)) {
-        ray = shadow_ray(point, LightCandidate(sky.direction_ws, infinity(), vec3(1.0f), 0u));
+        ray = shadow_ray(point, LightCandidate(sky.direction_ws, infinity(), vec3(1.0f), 0.0f));
       }
     }
     args.pairs.at[slots * args.count + i] = pair;

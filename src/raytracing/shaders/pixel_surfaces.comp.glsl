@@ -2,6 +2,7 @@
 // Finds the surfaces at the hits of rays that pixels show.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "raytracing/shaders/light_tree.glsl"
 #include "raytracing/shaders/sky.glsl"
 #include "raytracing/shaders/surface_at.glsl"
 #include "raytracing/vulkan/shading_records.h"
@@ -20,7 +21,8 @@ void main() {
                                         kNoDirectLight, 0u, vec3(0.0f), 0.0f);
   PixelSurfaceRecord pixel = PixelSurfaceRecord(
       lambert_reflectance(vec3(0.0f)), vec3(0.0f), -ray.direction_ws, no_transmission(),
-      RayCone(0.0f, 0.0f), kSurfaceMissed, 0.0f, CoatShares(0.0f, 0.0f), hit.sample_weight);
+      RayCone(0.0f, 0.0f), kSurfaceMissed, 0.0f, CoatShares(0.0f, 0.0f), hit.sample_weight,
+      0.0f, 0.0f);
   if (missed(hit)) {
     pixel.cone = args.cones.at[i];
     pixel.emission = sky_radiance_in_cone(args.scene.at[0].environment, ray.direction_ws,
@@ -32,9 +34,11 @@ void main() {
                            args.first_index + i, 0u, vec3(0.0f), 0.0f);
     pixel.reflectance = surface.reflectance;
     pixel.emission = surface.emission;
-    if (is_unlit(fetch_material(args.scene, surface.material))) {
-      pixel.emission *= args.unlit_radiance;
-    }
+    MaterialRecord material = fetch_material(args.scene, surface.material);
+    if (is_unlit(material)) pixel.emission *= args.unlit_radiance;
+    pixel.emission_level = emission_level(material);
+    pixel.light_around =
+        light_around(SeenLightTree(args.scene, kNoVisibilityRow), surface.position_ws);
     pixel.transmission = surface.transmission;
     pixel.cone = RayCone(footprint.width, args.cones.at[i].spread);
     pixel.flags = 0u;

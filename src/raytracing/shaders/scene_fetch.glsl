@@ -60,10 +60,6 @@ MeshRecord fetch_mesh(SceneArray scene, uint mesh) {
 MaterialRecord fetch_material(SceneArray scene, uint material) {
   return scene.at[0].materials.at[material];
 }
-/// The material of an instance.
-MaterialRecord material_of(SceneArray scene, uint instance) {
-  return fetch_material(scene, fetch_mesh(scene, fetch_instance(scene, instance).mesh).material);
-}
 uvec3 fetch_triangle(MeshRecord mesh, uint triangle) {
   return mesh.triangles.at[triangle];
 }

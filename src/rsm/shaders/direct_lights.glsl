@@ -61,7 +61,7 @@ ReflectedPair sent_light(AskingPixel pixel, uint light, out LightCandidate candi
   LightRecord record = args.scene.at[0].lights.at[light];
   candidate = punctual_candidate(record, pixel.point);
   ReflectedPair pair = sampled_reflection(pixel.reflectance, pixel.frame, pixel.to_viewer,
-                                          pixel.point, candidate, CoatShares(0.0f, 0.0f), 1u);
+                                          pixel.point, candidate, CoatShares(0.0f, 0.0f), 0.0f);
   float passed =
       transmittance(args, pixel.point.position_ws, candidate.to_light, candidate.distance);
   pair.diffuse = pair.diffuse * passed / filtered_albedo(pixel.reflectance);

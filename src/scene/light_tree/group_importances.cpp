@@ -47,6 +47,11 @@ void pick_below_in_groups(const GroupNumbers& tree, uint link, const vec3& posit
   kernel(tree, link, position_ws, normal_ws, lobe, count, picks);
 }
 
+float light_around_in_groups(const GroupNumbers& tree, const vec3& position_ws) {
+  static const auto kernel = LAMBENT_BEST_LEVEL(light_around_in_groups);
+  return kernel(tree, position_ws);
+}
+
 PickLobe bounded_in_groups(const GroupNumbers& tree, const vec3& position_ws, const vec3& normal_ws,
                            const PickLobe& lobe) {
   static const auto kernel = LAMBENT_BEST_LEVEL(bounded_in_groups);

@@ -26,6 +26,17 @@ LAMBENT_FN NodeImportances weighted_importances(LightTreeRef tree, uint group, v
   return importances;
 }
 
+/// Irradiance from all around that unoccluded lights of the tree cause at a point, about
+/// [W/m^2], luminance.
+LAMBENT_FN float light_around(LightTreeRef tree, vec3 position_ws) {
+  if (light_tree_size(tree) == 0u) return 0.0f;
+  NodeImportances importances;
+  group_importances(tree, 0u, position_ws, vec3(0.0f), no_pick_lobe(), importances.of);
+  float sum = 0.0f;
+  for (uint k = 0u; k < kLightGroupSize; ++k) sum += importances.of[k];
+  return sum;
+}
+
 /// Scales the specular part of a lobe down so that at the root it gets at most half of all picks.
 /// Highlights that are brighter by orders of magnitude would leave no picks for diffuse light.
 LAMBENT_FN PickLobe bounded_lobe(LightTreeRef tree, vec3 position_ws, vec3 normal_ws,
