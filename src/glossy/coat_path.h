@@ -19,7 +19,9 @@ struct CoatRay {
                       ///< Rays through surfaces have 0; where there is no such ray, `distance` is
                       ///< below 0.
   vec3 apart;         ///< Light that is stored apart, see CoatPath::stage [W/(m^2 sr)].
-  float apart_density;  ///< Of kStageOwnCoat: density with which samples of lights find it [1/sr].
+  /// Of kStageOwnCoat: emission_level() of the emitter that it found [W/(m^2 sr)]; of the sky,
+  /// minus the density with which samples find it [1/sr]. See sampled_density().
+  float apart_level;
 };
 LAMBENT_DEVICE_ARRAY(CoatRayArray, CoatRay, 4)
 
@@ -61,8 +63,8 @@ struct CoatPath {
   float alpha;      ///< GGX width of the widest lobe on the path.
   uint stage;       ///< kStageOther, ...
   uint fork;        ///< kForksNowhere, ...
-  /// See emitter_density_scale(): of the samples of emitters of the last coat, or bending surface,
-  /// as of `pdf` [m^2/W].
+  /// emitter_density_scale() of the surface that `pdf` belongs to [m^2/W]; 0 where no samples are
+  /// taken there.
   float density_scale;
 };
 LAMBENT_DEVICE_ARRAY(CoatPathArray, CoatPath, 4)

@@ -40,6 +40,7 @@ struct CoatReceiver {
   LobeValue at_own;         ///< The lobe's value for that ray; 0 where there is none.
   Real3 mirror_ws;          ///< The mirror direction, where the lobe is about densest.
   Real inverse_mirror_pdf;  ///< One over the lobe's density there [sr]; 0: there is no lobe.
+  Real density_scale;       ///< Of its samples of emitters, see emitter_density_scale() [m^2/W].
 };
 
 /// Weighted sums over rays.
@@ -101,7 +102,8 @@ LAMBENT_REAL_FN void add_light_of_ray(CoatReceiver at, LobeValue lobe, Real3 dir
   Real gain = luminance(light) - luminance(sums.brightest);
   sums.brightest = select(gain > 0.0f, light, sums.brightest);
   sums.brightest_weight = select(gain > 0.0f, weight, sums.brightest_weight);
-  sums.emission += reflected * (ray.apart * found_light_weight(lobe.pdf, ray.apart_density));
+  Real density = sampled_density(ray.apart_level, at.density_scale);
+  sums.emission += reflected * (ray.apart * found_light_weight(lobe.pdf, density));
 }
 
 /// Adds the light of a neighbour's ray, and the weight of the receiver's own ray beside it.

@@ -152,7 +152,7 @@ struct CoatReuseArguments {
   uint sample_index;
   uint has_sky;
   uint finds_guides;
-  uint padding;
+  uint emitter_samples;  ///< Samples of the pixels' own direct light.
 };
 
 LAMBENT_END

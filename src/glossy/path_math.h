@@ -93,19 +93,19 @@ LAMBENT_FN void add_radiance(CoatPath path, vec3 light, LAMBENT_INOUT(CoatRay) r
   }
 }
 
-/// Adds light that samples of lights find with `density` [1/sr], too, at a path's hit, to the light
-/// of its pixel's ray. Multiple importance sampling combines the two estimates. Light that pixels'
-/// coats find is stored apart: neighbouring pixels, which reflect it as well, weigh it by their own
-/// lobes.
-LAMBENT_FN void meet_light(CoatPath path, vec3 radiance, float density,
-                           LAMBENT_INOUT(CoatRay) ray) {
+/// Adds light that samples of lights find, too, at a path's hit, to the light of its pixel's ray.
+/// `level`: see CoatRay::apart_level. Multiple importance sampling combines the two estimates.
+/// Light that pixels' coats find is stored apart: neighbouring pixels, which reflect it as well,
+/// weigh it by their own lobes.
+LAMBENT_FN void meet_light(CoatPath path, vec3 radiance, float level, LAMBENT_INOUT(CoatRay) ray) {
   if (radiance == vec3(0.0f)) return;
-  // A ray through glowing glass can meet lights of two densities; the first decides
+  // A ray through glowing glass can meet lights of two levels; the first decides
   bool is_first = ray.apart == vec3(0.0f);
-  if (path.stage == kStageOwnCoat && (is_first || ray.apart_density == density)) {
+  if (path.stage == kStageOwnCoat && (is_first || ray.apart_level == level)) {
     ray.apart += path.throughput * radiance;
-    ray.apart_density = density;
+    ray.apart_level = level;
   } else {
+    float density = sampled_density(level, path.density_scale);
     add_radiance(path, found_light_weight(path.pdf, density) * radiance, ray);
   }
 }
@@ -114,13 +114,13 @@ LAMBENT_FN void meet_light(CoatPath path, vec3 radiance, float density,
 /// what it hit.
 LAMBENT_FN void meet_emitter(CoatPath path, vec3 emission, float level,
                              LAMBENT_INOUT(CoatRay) ray) {
-  meet_light(path, emission, level * path.density_scale, ray);
+  meet_light(path, emission, level, ray);
 }
 
 /// Adds the sky that a path meets to the light of its pixel's ray. Coats sample its bright part.
 LAMBENT_FN void meet_sky(CoatPath path, SkySeen sky, LAMBENT_INOUT(CoatRay) ray) {
   add_radiance(path, sky.dim, ray);
-  meet_light(path, sky.bright, float(kSkyCandidates) * sky.density, ray);
+  meet_light(path, sky.bright, -float(kSkyCandidates) * sky.density, ray);
 }
 
 /// The tint that transmitted light is divided by before it is filtered.
@@ -164,9 +164,9 @@ LAMBENT_FN float clearcoat_chance(Reflectance surface, CoatShares shares, float 
 }
 
 /// Continues a path by reflection from a coat or, at random, from the clearcoat on it, where
-/// further rays supply the shares `shares` of their light. `density_scale` is that of the samples
-/// of emitters at the surface; so it is below. Sets the path's pdf, which is that of the lobe that
-/// was chosen, to 0 where it ends: samples of lights are weighed against each lobe by itself.
+/// further rays supply the shares `shares` of their light; `density_scale`: emitter_density_scale()
+/// at the surface. Sets the path's pdf, which is that of the lobe that was chosen, to 0 where it
+/// ends: samples of lights are weighed against each lobe by itself.
 LAMBENT_FN NextRay extend_by_reflection(Reflectance coat, CoatShares shares, vec3 normal_ws,
                                         vec3 geometric_normal_ws, vec3 to_viewer_ws,
                                         float density_scale, vec2 u, LAMBENT_INOUT(CoatPath) path) {
@@ -207,6 +207,7 @@ LAMBENT_FN bool samples_lights_behind(CoatPath path, Transmission through) {
 }
 
 /// Continues a path through a surface, or from the inside of its volume, where it may be reflected.
+/// `density_scale`: emitter_density_scale() at the surface.
 LAMBENT_FN NextRay extend_through_glass(Transmission through, Reflectance coat, vec3 normal_ws,
                                         vec3 to_viewer_ws, float density_scale, vec3 u,
                                         LAMBENT_INOUT(CoatPath) path) {
@@ -215,7 +216,7 @@ LAMBENT_FN NextRay extend_through_glass(Transmission through, Reflectance coat, 
   path.alpha = max(path.alpha, through.alpha);
   if (path.stage == kStageThroughGlass && !goes_straight(through)) {
     path.pdf = drawn.pdf > 0.0f ? drawn.pdf : kNoLightSampling;
-    path.density_scale = density_scale;
+    path.density_scale = drawn.pdf > 0.0f ? density_scale : 0.0f;
   }
   if (drawn.weight == vec3(0.0f)) path.pdf = 0.0f;
   NextRay next = {drawn.direction_ws, drawn.crosses != 0u ? -1.0f : 1.0f};
@@ -242,6 +243,7 @@ LAMBENT_FN bool forks(CoatPath path, Transmission through, Reflectance coat, flo
 
 /// Continues a path from its hit on bounce `bounce`: through the surface, or by reflection from its
 /// coat. Where both are possible, one is drawn at random, unless the path has split there.
+/// `density_scale`: emitter_density_scale() at the surface; so it is below.
 LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, CoatShares shares, vec3 normal_ws,
                          vec3 geometric_normal_ws, vec3 to_viewer_ws, float density_scale,
                          uint bounce, RandomStream random, LAMBENT_INOUT(CoatPath) path) {

@@ -25,7 +25,7 @@ enum CoatPlane : int {
   kRayPdf = 19,
   kRayRadiance = 20,
   kRayEmission = 23,
-  kRayEmissionDensity = 26,
+  kRayEmissionLevel = 26,
   kCoatPlanes = 27
 };
 
@@ -39,7 +39,8 @@ enum ReceiverPlane : int {
   kF0 = 7,
   kF90 = 10,
   kInverseTolerance = 11,
-  kReceiverPlanes = 12
+  kDensityScale = 12,
+  kReceiverPlanes = 13
 };
 
 /// CoatSums of a pixel.

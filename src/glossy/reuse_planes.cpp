@@ -29,7 +29,7 @@ void set_coat(RowPlanes& coats, int row, int x, const CoatLobe& lobe, const Coat
   put(coats, row, kRayPdf, x, ray.pdf);
   put(coats, row, kRayRadiance, x, ray.radiance);
   put(coats, row, kRayEmission, x, ray.apart);
-  put(coats, row, kRayEmissionDensity, x, ray.apart_density);
+  put(coats, row, kRayEmissionLevel, x, ray.apart_level);
 }
 
 void set_no_coat(RowPlanes& coats, int row, int x) {
@@ -45,6 +45,7 @@ void set_receiver(RowPlanes& receivers, int row, int x, const CoatReceiver& at) 
   put(receivers, row, kF0, x, at.reflectance.f0);
   put(receivers, row, kF90, x, at.reflectance.f90);
   put(receivers, row, kInverseTolerance, x, at.inverse_tolerance);
+  put(receivers, row, kDensityScale, x, at.density_scale);
 }
 
 CoatSums sums_of(const RowPlanes& sums, int row, int x) {

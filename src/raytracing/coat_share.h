@@ -63,22 +63,21 @@ LAMBENT_FN CoatShares pixel_coat_shares(Reflectance surface) {
 
 // Samples of emitters and rays of coats both find lamps. Where a lobe is denser towards a lamp than
 // the samples, its rays estimate the lamp's light. The weights sum to 1 whatever density is assumed
-// for the samples, which affects noise alone: a lobe whose tail reaches a lamp more densely than
-// its samples, but not than they were taken to be, leaves bright specks.
+// for the samples, which affects noise alone. Where it is assumed too large, samples have to
+// estimate what they seldom find: bright specks.
 
-// Least irradiance from all around that densities are divided by [W/m^2].
-const float kLeastLightAround = 1e-30f;
-
-// Samples of emitters are this many times as dense as if lights all around were picked, and lit any
-// place: half of the lights are below a surface's horizon, and resampling prefers those that its
-// lobes reflect.
-const float kAimOfSamples = 4.0f;
+// Samples of emitters are this many times as dense as if lights in all directions were picked by
+// what they send: half of them are below a surface's horizon, and resampling prefers those that its
+// lobes reflect, by about as much. With 1, rough lobes take lamps from rays, and have more noise;
+// narrow ones are the same.
+const float kSampleDensityFactor = 4.0f;
 
 /// Factor from an emitter's level, see LightCandidate, to the density with which `samples` samples
-/// of emitters find it [m^2/W]. Lights are picked about in proportion to what arrives from them:
-/// `light_around` is what arrives of all of them from all around, unoccluded [W/m^2].
+/// of emitters find it [m^2/W]. Lights are picked about in proportion to what they send.
+/// `light_around`: what all of them would send to the place from all around, were nothing in the
+/// way [W/m^2]; see light_around(). Where it is 0, samples find nothing.
 LAMBENT_FN float emitter_density_scale(uint samples, float light_around) {
-  return kAimOfSamples * float(samples) / max(light_around, kLeastLightAround);
+  return light_around > 0.0f ? kSampleDensityFactor * float(samples) / light_around : 0.0f;
 }
 
 /// Weight of a sample of emitters of this density in a coat's direct light, where rays supply the

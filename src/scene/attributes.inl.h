@@ -16,6 +16,7 @@
 //   vec2 fetch_uv(MeshRef mesh, TextureViewRef view, uint vertex)
 //   bool is_unlit(MaterialRef material)
 //   bool may_emit(MaterialRef material)
+//   float luminance(vec3)
 //   vec4 sample_texture(SceneRef scene, TextureViewRef view, vec2 uv, float level)
 //       like blended_texel(), with the device's filter
 
@@ -162,7 +163,8 @@ LAMBENT_FN MaterialRef material_of(SceneRef scene, uint instance) {
   return fetch_material(scene, fetch_mesh(scene, fetch_instance(scene, instance).mesh).material);
 }
 
-/// Luminance that a material emits without its textures [W/(m^2 sr)]: about its brightest.
+/// Luminance that a material emits without textures and vertex colours [W/(m^2 sr)]: about its
+/// brightest.
 LAMBENT_FN float emission_level(MaterialRef material) {
   if (!may_emit(material)) return 0.0f;
   return luminance(is_unlit(material) ? vec3(material.base_color) : vec3(material.emission));

@@ -12,6 +12,12 @@ LAMBENT_REAL_FN Real mis_power_weight(Real pdf, Real other_pdf) {
   return 1.0f / (1.0f + ratio * ratio);
 }
 
+/// Density with which samples of lights find what a ray found [1/sr]: an emitter of this `level`
+/// above 0, where they find one with `scale` times its level; or, below 0, the sky, with -`level`.
+LAMBENT_REAL_FN Real sampled_density(Real level, Real scale) {
+  return select(level > 0.0f, level * scale, level * -1.0f);
+}
+
 /// Weight of light that a coat's ray found, drawn with density `pdf`, where samples of lights find
 /// it with `density`, that of one times their number [1/sr]. The sums of both remain unbiased for
 /// any densities.

@@ -39,7 +39,8 @@ struct Case {
 };
 
 double tolerance_of(const Case& c) {
-  if (c.source == Source::emitters && c.metallic == 0.0f) return kDielectricUnderEmitters;
+  const bool rough = c.roughness > 0.0f;
+  if (c.source == Source::emitters && c.metallic == 0.0f && rough) return kDielectricUnderEmitters;
   return c.ior > 1.0f ? kTolerance : kGrazingTolerance;
 }
 

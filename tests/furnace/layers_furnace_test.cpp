@@ -18,11 +18,7 @@ namespace {
 
 constexpr int kSide = 64;  // of the picture [pixels]
 
-// A pixel. Lamps all around are noise in narrow lobes: what a rough clearcoat on a smooth metal
-// reflects has a deviation of 2 % by 16 samples, over eight seeds, and so it has more.
-constexpr int kSamples = 16;
-constexpr int kNarrowSamples = 768;
-constexpr float kWidestNarrowRoughness = 0.5f;
+constexpr int kSamples = 16;  // a pixel
 
 // Of the reference, a pixel. Its means are within 0.1 % of what is expected by these, but for one
 // at 0.3 %.
@@ -53,11 +49,6 @@ Material material_of(const Case& c) {
   material.sheen_color = glm::vec3(c.sheen);
   material.sheen_roughness = c.sheen_roughness;
   return material;
-}
-
-int samples_of(const Case& c, bool sky) {
-  const bool narrow = c.metallic > 0.0f && c.roughness < kWidestNarrowRoughness;
-  return !sky && narrow ? kNarrowSamples : kSamples;
 }
 
 /// Share of light from everywhere that a surface reflects; none comes from below its triangle.
@@ -110,7 +101,7 @@ TEST_P(LayersFurnace, ReflectsAllItsLobes) {
   const IrradianceField field = test::make_field(stage, settings, 2);
   FrameSettings frame;
   frame.width = frame.height = kSide;
-  frame.samples = samples_of(tested, sky);
+  frame.samples = kSamples;
   const double rendered =
       reflected_mean(Renderer(stage.world, {.field = &field}).render(camera, frame)->image);
   EXPECT_NEAR(rendered / expected, 1.0, kTolerance);

@@ -16,6 +16,7 @@
 #include "support/hand_made.h"
 #include "support/lit_box.h"
 #include "support/vulkan_device.h"
+#include "twin/shared_visibility.h"
 
 namespace lambent::frame_test {
 namespace {
@@ -87,6 +88,7 @@ class Frame : public test::OnDevice {
     if (job.lights > 0) {
       scene.lights = test::lit_box(job.scene, job.lights).lights;
       const World here(scene), there(scene, shared_device());
+      test::share_light_visibility(here, there);
       return {render_directly(scene, here, job), render_directly(scene, there, job)};
     }
     return render_both(scene, job);
@@ -94,6 +96,7 @@ class Frame : public test::OnDevice {
 
   static Frames render_both(const Scene& scene, const Job& job) {
     const World here(scene), there(scene, shared_device());
+    test::share_light_visibility(here, there);
     return {render(scene, here, job), render(scene, there, job)};
   }
 
@@ -142,8 +145,7 @@ TEST_F(Frame, OfUnlitSurfacesIsTheSame) {
                      material.base_color.y < 0.2f;
   }
   ASSERT_TRUE(shows_unlit(scene));
-  const World here(scene), there(scene, shared_device());
-  const Frames frames{render(scene, here, job), render(scene, there, job)};
+  const Frames frames = render_both(scene, job);
   expect_alike(frames);
   const Image& emission = *frames.device.find("emission");
   float reddest = 0.0f;

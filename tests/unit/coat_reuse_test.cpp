@@ -66,6 +66,7 @@ vec2 range_of(const FlatView& view, uint sample) {
                       fetch_ray(view, {x, y}),
                       {},
                       {},
+                      0.0f,
                       0.0f};
       find_lobe(at);
       const float light = reuse_rays(view, {x, y}, at, sample, 1).light.x;

@@ -47,6 +47,30 @@ TEST(CoatSums, ExcessIsWhatOneRayBringsAboveHalfOfAllOthers) {
   EXPECT_EQ(excess_of(sums), sums.light);
 }
 
+// For each direction, whatever the densities are, and where no sample finds the lamp at all.
+TEST(CoatShares, RaysAndSamplesOfEmittersShareAllLight) {
+  Reflectance metal{};
+  metal.f0 = vec3(1.0f);
+  metal.f90 = 1.0f;
+  metal.alpha = 0.2f;
+  const vec3 to_viewer = normalize(vec3(0.3f, 0.1f, 1.0f));
+  for (const float light_around : {0.0f, 1e-30f, 0.5f, 40.0f, 1e30f}) {
+    const float scale = emitter_density_scale(2u, light_around);
+    for (const float level : {1e-3f, 1.0f, 1e4f}) {
+      for (const vec3& towards : {vec3(0.0f, 0.0f, 1.0f), vec3(-0.3f, -0.1f, 1.0f), vec3(1.0f)}) {
+        const vec3 to_light = normalize(towards);
+        const float pdf = pdf_ggx_reflection(to_viewer, to_light, metal.alpha);
+        const float by_samples =
+            sampled_emitter_weight(metal, to_viewer, to_light, 1.0f, level * scale);
+        const float by_rays = found_light_weight(pdf, sampled_density(level, scale));
+        EXPECT_NEAR(by_samples + by_rays, 1.0f, 1e-6f) << level << ", " << light_around;
+        if (light_around == 0.0f) EXPECT_EQ(by_rays, 1.0f);
+      }
+    }
+  }
+  EXPECT_EQ(sampled_density(-7.0f, 3.0f), 7.0f);  // of the sky
+}
+
 // Where no other lobe fits, nearly all of the light is the own ray's, however even it is.
 TEST(CoatSums, HaveNoExcessWhereARayBringsItsShareOfTheWeights) {
   CoatSums sums = no_coat_sums();

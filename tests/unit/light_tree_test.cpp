@@ -365,5 +365,24 @@ TEST(LightTree, EstimatesTheSumOfAllLights) {
   EXPECT_LT(ratios / kPoints, 0.07);
 }
 
+// What coats and samples of emitters share lamps by.
+TEST(LightTree, SaysWhatLightThereIsAround) {
+  Scene scene;
+  EXPECT_EQ(Lights(scene).tree.light_around(vec3(0.0f)), 0.0f);
+  // More than are asked one by one, all at a distance of 2 m
+  constexpr int kLights = 20;
+  for (int i = 0; i < kLights; ++i) {
+    const float angle = static_cast<float>(i);
+    scene.lights.push_back(
+        test::point_light(glm::vec3(3.0f), 2.0f * vec3(std::cos(angle), std::sin(angle), 0.0f)));
+  }
+  const float sum = kLights * 3.0f / 4.0f;
+  const Lights lights(scene);
+  EXPECT_GT(lights.tree.light_around(vec3(0.0f)), sum);
+  EXPECT_LT(lights.tree.light_around(vec3(0.0f)), 2.0f * sum);  // clusters count by their near ends
+  // From far away
+  EXPECT_NEAR(lights.tree.light_around(vec3(0.0f, 0.0f, 200.0f)), sum * 1e-4f, 1e-3f * sum * 1e-4f);
+}
+
 }  // namespace
 }  // namespace lambent::light_tree_test

@@ -115,7 +115,7 @@ TEST(LightVisibility, WeighsByTheRootOfWhatArrived) {
   EXPECT_EQ(visibility.at(place, glm::vec3(0.0f)), nullptr);
   EXPECT_EQ(visibility.at(place + glm::vec3(2.0f), up), nullptr);
   // What fades is held to be the same, but counts for less beside new tests
-  for (int i = 0; i < 4; ++i) visibility.fade();
+  for (int i = 0; i < 8; ++i) visibility.fade();
   visibility.weigh();
   EXPECT_NEAR(visibility_weight(visibility.at(place, up)[1]), 0.5f, 0.1f);
   tests.assign(100, {index, 0, true});

@@ -83,7 +83,7 @@ class RayReuseTest : public testing::Test {
     if (uniform() < 0.03f) ray.radiance *= 200.0f;
     if (uniform() < 0.2f) {
       ray.apart = vec3(20.0f, 10.0f, 5.0f);
-      ray.apart_density = 40.0f * uniform();
+      ray.apart_level = 80.0f * uniform() - 40.0f;
     }
     return ray;
   }
@@ -105,7 +105,9 @@ class RayReuseTest : public testing::Test {
                     fetch_ray(picture, pixel),
                     {},
                     {},
-                    0.0f};
+                    0.0f,
+                    emitter_density_scale(settings.world, settings.frame.emissive_samples,
+                                          surface.position_ws)};
     find_lobe(at);
     const ReflectedRays found = reuse_rays(picture, pixel, at, static_cast<uint>(settings.sample),
                                            static_cast<uint>(settings.frame.glossy_rows));

@@ -293,7 +293,7 @@ void FramePassesVulkan::reuse_coat_rays(const Band& around, const Buffer& sky) {
                                           sample_,
                                           world_.scene().has_bright_sky() ? 1u : 0u,
                                           settings.denoise ? 1u : 0u,
-                                          0u};
+                                          static_cast<uint>(settings.emissive_samples)};
     to.run(kernels_.coat_reuse, arguments, pixels_);
   });
 }

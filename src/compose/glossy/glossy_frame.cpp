@@ -222,7 +222,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
       const NextRay next =
           go_on(surface.transmission, surface.reflectance, met_.coat_shares[i], surface.normal_ws,
                 surface.geometric_normal_ws, met_.to_viewer_ws[i],
-                density_scale_at_hit(settings, surface), bounce, random, path);
+                reflected_density_scale(settings, surface), bounce, random, path);
       if (path.pdf <= 0.0f) continue;
       paths_.next[i] = ray_from(surface, next);
       paths_.cones[i] = reflected_cone(paths_.cones[i], path.pdf);

@@ -18,9 +18,9 @@ inline Ray ray_from(const Surface& surface, const NextRay& next) {
   return ray;
 }
 
-/// The scale of densities, see emitter_density_scale(), of the samples of emitters at a surface
-/// that paths meet.
-inline float density_scale_at_hit(const GlossySettings& settings, const Surface& surface) {
+/// emitter_density_scale() of a surface whose light is sampled for paths: one that they meet, or a
+/// pixel's that they go through.
+inline float reflected_density_scale(const GlossySettings& settings, const Surface& surface) {
   return emitter_density_scale(settings.world, settings.frame.reflected_emissive_samples,
                                surface.position_ws);
 }

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "core/parallel.h"
+#include "raytracing/direct_light.h"
 
 namespace lambent {
 namespace {
@@ -98,7 +99,9 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
           own,
           {},
           {},
-          0.0f};
+          0.0f,
+          emitter_density_scale(settings.world, settings.frame.emissive_samples,
+                                surface.position_ws)};
       find_lobe(at);
       set_receiver(asked, 0, x, at);
       receivers.push_back(at);

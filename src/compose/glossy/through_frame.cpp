@@ -28,7 +28,7 @@ std::uint64_t Glossy::send_through(const GlossySettings& settings, const GBuffer
     const vec2 u = next_uniform2(random);
     const NextRay next = extend_through_glass(
         surface.transmission, surface.reflectance, surface.normal_ws, seen.to_viewer_ws[i],
-        density_scale_at_hit(settings, surface), vec3(u, next_uniform(random)), path);
+        reflected_density_scale(settings, surface), vec3(u, next_uniform(random)), path);
     paths_.next[i] = ray_from(surface, next);
     paths_.cones[i] = reflected_cone(pixel_cone(settings, surface, seen.to_viewer_ws[i]), path.pdf);
     sent += path.pdf > 0.0f ? 1 : 0;
@@ -93,7 +93,7 @@ void Glossy::split_paths(const GlossySettings& settings, std::uint32_t bounce) {
       const NextRay next = go_on_reflected(
           surface.transmission, surface.reflectance, met_.coat_shares[i], surface.normal_ws,
           surface.geometric_normal_ws, met_.to_viewer_ws[i],
-          density_scale_at_hit(settings, surface), random, paths_.paths[i], forks_.paths[i]);
+          reflected_density_scale(settings, surface), random, paths_.paths[i], forks_.paths[i]);
       forks_.next[i] = ray_from(surface, next);
       forks_.cones[i] = reflected_cone(paths_.cones[i], forks_.paths[i].pdf);
     }

@@ -63,31 +63,20 @@ void LightVisibility::fade() {
 }
 
 void LightVisibility::weigh() {
-  weights_.assign(counts_.size(), static_cast<std::uint8_t>(kWholeVisibility));
-  for (std::size_t first = 0; first < counts_.size(); first += grid_.row_length) {
-    const std::span<const Count> counts = std::span(counts_).subspan(first, grid_.row_length);
-    const std::span<std::uint8_t> weights = std::span(weights_).subspan(first, grid_.row_length);
-    float largest = 0.0f;
-    for (const Count& count : counts) largest = std::max(largest, share_of(count));
-    for (std::size_t entry = 0; entry < counts.size(); ++entry) {
-      if (counts[entry].tested > 0.0f) {
-        weights[entry] = weight_of(share_of(counts[entry]) / largest);
-      } else if (entry >= kLightGroupSize) {
-        weights[entry] = weights[nodes_above_[entry / kLightGroupSize]];
-      }
+  weights_.resize(counts_.size());
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    const std::size_t entry = i % grid_.row_length, group = entry / kLightGroupSize;
+    const Count& count = counts_[i];
+    if (count.tested == 0.0f) {
+      // Nodes above come before
+      weights_[i] = group > 0 ? weights_[i - entry + nodes_above_[group]]
+                              : static_cast<std::uint8_t>(kWholeVisibility);
+      continue;
     }
+    const float share = (count.visible + 0.5f * kPriorTests) / (count.tested + kPriorTests);
+    weights_[i] =
+        static_cast<std::uint8_t>(std::max(std::round(std::sqrt(share) * kWholeVisibility), 1.0f));
   }
-}
-
-float LightVisibility::share_of(const Count& count) {
-  if (count.tested == 0.0f) return 0.0f;
-  return (count.visible + 0.5f * kPriorTests) / (count.tested + kPriorTests);
-}
-
-std::uint8_t LightVisibility::weight_of(float relative) {
-  // From a half on, shares count as the largest; below a quarter, as they are
-  const float share = std::min(relative + 2.0f * std::max(relative - 0.25f, 0.0f), 1.0f);
-  return static_cast<std::uint8_t>(std::max(std::round(std::sqrt(share) * kWholeVisibility), 1.0f));
 }
 
 const std::uint8_t* LightVisibility::at(const glm::vec3& position_ws,

@@ -24,10 +24,9 @@ struct VisibilityTest {
   bool visible;
 };
 
-/// Rows of weights over a grid. A weight is the square root of the share of rays that arrived, over
-/// the row's largest share: where a share v of a cell's points sees a light, the variance of picked
-/// light is least with picks in proportion to the root of v. Shares from half of the largest on
-/// count as the largest: where all lights are seen about alike, weights are 1.
+/// Rows of weights over a grid. A weight is the square root of the share of rays that arrived:
+/// where a share v of a cell's points sees a light, the variance of picked light is least with
+/// picks in proportion to the root of v.
 class LightVisibility {
  public:
   LightVisibility() = default;  ///< Without a grid: there are no rows.
@@ -60,8 +59,6 @@ class LightVisibility {
   struct Count {
     float tested = 0.0f, visible = 0.0f;
   };
-  static float share_of(const Count& count);      // 0 where nothing was tested, else above
-  static std::uint8_t weight_of(float relative);  // share over the row's largest
 
   LightVisibilityGrid grid_{};
   std::array<std::uint32_t, kGroupsWithVisibility> nodes_above_{};  // of the groups
