@@ -5,7 +5,6 @@
 #include "lambent/renderer.h"
 #include "support/box_behind_a_pane.h"
 #include "support/vulkan_device.h"
-#include "twin/shared_visibility.h"
 
 namespace lambent::blended_frame_test {
 namespace {
@@ -31,7 +30,6 @@ LayeredImage render(const Scene& scene, const World& world) {
 TEST_F(BlendedFrame, HasTheSameLayers) {
   const Scene scene = test::box_behind_a_pane();
   const World here(scene), there(scene, shared_device());
-  test::share_light_visibility(here, there);
   const LayeredImage host = render(scene, here), device = render(scene, there);
   for (const char* layer : {"direct", "indirect", "glossy", "irradiance", "albedo", "depth"}) {
     const Metrics found =

@@ -64,7 +64,9 @@ TEST(CoatShares, RaysAndSamplesOfEmittersShareAllLight) {
             sampled_emitter_weight(metal, to_viewer, to_light, 1.0f, level * scale);
         const float by_rays = found_light_weight(pdf, sampled_density(level, scale));
         EXPECT_NEAR(by_samples + by_rays, 1.0f, 1e-6f) << level << ", " << light_around;
-        if (light_around == 0.0f) EXPECT_EQ(by_rays, 1.0f);
+        if (light_around == 0.0f) {
+          EXPECT_EQ(by_rays, 1.0f);
+        }
       }
     }
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "raytracing/camera_rays.h"
+#include "raytracing/direct_light.h"
 #include "support/hand_made.h"
 
 namespace lambent::ray_reuse_test {
