@@ -35,6 +35,8 @@ struct Case {
   float sheen, sheen_roughness;
 };
 
+// The test library looks for it by this name.
+// NOLINTNEXTLINE(readability-identifier-naming)
 void PrintTo(const Case& c, std::ostream* out) {
   *out << c.name;
 }
