@@ -19,9 +19,9 @@ struct CoatRay {
                       ///< Rays through surfaces have 0; where there is no such ray, `distance` is
                       ///< below 0.
   vec3 apart;         ///< Light that is stored apart, see CoatPath::stage [W/(m^2 sr)].
-  /// Of kStageOwnCoat: emission_level() of the emitter that it found [W/(m^2 sr)]; of the sky,
+  /// Of kStageOwnCoat: emission_luminance() of the emitter that it found [W/(m^2 sr)]; of the sky,
   /// minus the density with which samples find it [1/sr]. See sampled_density().
-  float apart_level;
+  float apart_luminance;
 };
 LAMBENT_DEVICE_ARRAY(CoatRayArray, CoatRay, 4)
 

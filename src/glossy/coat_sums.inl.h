@@ -102,7 +102,7 @@ LAMBENT_REAL_FN void add_light_of_ray(CoatReceiver at, LobeValue lobe, Real3 dir
   Real gain = luminance(light) - luminance(sums.brightest);
   sums.brightest = select(gain > 0.0f, light, sums.brightest);
   sums.brightest_weight = select(gain > 0.0f, weight, sums.brightest_weight);
-  Real density = sampled_density(ray.apart_level, at.density_scale);
+  Real density = sampled_density(ray.apart_luminance, at.density_scale);
   sums.emission += reflected * (ray.apart * found_light_weight(lobe.pdf, density));
 }
 

@@ -94,27 +94,28 @@ LAMBENT_FN void add_radiance(CoatPath path, vec3 light, LAMBENT_INOUT(CoatRay) r
 }
 
 /// Adds light that samples of lights find, too, at a path's hit, to the light of its pixel's ray.
-/// `level`: see CoatRay::apart_level. Multiple importance sampling combines the two estimates.
-/// Light that pixels' coats find is stored apart: neighbouring pixels, which reflect it as well,
-/// weigh it by their own lobes.
-LAMBENT_FN void meet_light(CoatPath path, vec3 radiance, float level, LAMBENT_INOUT(CoatRay) ray) {
+/// `emitted`: see CoatRay::apart_luminance. Multiple importance sampling combines the two
+/// estimates. Light that pixels' coats find is stored apart: neighbouring pixels, which reflect it
+/// as well, weigh it by their own lobes.
+LAMBENT_FN void meet_light(CoatPath path, vec3 radiance, float emitted,
+                           LAMBENT_INOUT(CoatRay) ray) {
   if (radiance == vec3(0.0f)) return;
-  // A ray through glowing glass can meet lights of two levels; the first decides
+  // A ray through glowing glass can meet two lights; the first decides
   bool is_first = ray.apart == vec3(0.0f);
-  if (path.stage == kStageOwnCoat && (is_first || ray.apart_level == level)) {
+  if (path.stage == kStageOwnCoat && (is_first || ray.apart_luminance == emitted)) {
     ray.apart += path.throughput * radiance;
-    ray.apart_level = level;
+    ray.apart_luminance = emitted;
   } else {
-    float density = sampled_density(level, path.density_scale);
+    float density = sampled_density(emitted, path.density_scale);
     add_radiance(path, found_light_weight(path.pdf, density) * radiance, ray);
   }
 }
 
-/// Adds the emission at a path's hit to the light of its pixel's ray. `level`: emission_level() of
-/// what it hit.
-LAMBENT_FN void meet_emitter(CoatPath path, vec3 emission, float level,
+/// Adds the emission at a path's hit to the light of its pixel's ray. `emitted`:
+/// emission_luminance() of what it hit.
+LAMBENT_FN void meet_emitter(CoatPath path, vec3 emission, float emitted,
                              LAMBENT_INOUT(CoatRay) ray) {
-  meet_light(path, emission, level, ray);
+  meet_light(path, emission, emitted, ray);
 }
 
 /// Adds the sky that a path meets to the light of its pixel's ray. Coats sample its bright part.

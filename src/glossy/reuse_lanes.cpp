@@ -26,7 +26,7 @@ struct CoatRay {
   Lanes3 radiance;
   Lanes pdf;
   Lanes3 apart;
-  Lanes apart_level;
+  Lanes apart_luminance;
 };
 struct Reflectance {
   Lanes3 f0;
@@ -74,7 +74,7 @@ HWY_INLINE CoatLobe lobe_at(const Planes& coats) {
 HWY_INLINE CoatRay ray_at(const Planes& coats) {
   return {coats.three_at(kRayDirection), coats.at(kRayDistance),
           coats.three_at(kRayRadiance),  coats.at(kRayPdf),
-          coats.three_at(kRayEmission),  coats.at(kRayEmissionLevel)};
+          coats.three_at(kRayEmission),  coats.at(kRayEmissionLuminance)};
 }
 
 HWY_INLINE CoatReceiver receiver_at(const Planes& coats, const Planes& more) {

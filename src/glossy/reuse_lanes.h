@@ -25,7 +25,7 @@ enum CoatPlane : int {
   kRayPdf = 19,
   kRayRadiance = 20,
   kRayEmission = 23,
-  kRayEmissionLevel = 26,
+  kRayEmissionLuminance = 26,
   kCoatPlanes = 27
 };
 

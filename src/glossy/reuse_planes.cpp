@@ -29,7 +29,7 @@ void set_coat(RowPlanes& coats, int row, int x, const CoatLobe& lobe, const Coat
   put(coats, row, kRayPdf, x, ray.pdf);
   put(coats, row, kRayRadiance, x, ray.radiance);
   put(coats, row, kRayEmission, x, ray.apart);
-  put(coats, row, kRayEmissionLevel, x, ray.apart_level);
+  put(coats, row, kRayEmissionLuminance, x, ray.apart_luminance);
 }
 
 void set_no_coat(RowPlanes& coats, int row, int x) {

@@ -68,16 +68,17 @@ LAMBENT_FN CoatShares pixel_coat_shares(Reflectance surface) {
 
 // Samples of emitters are this many times as dense as if lights in all directions were picked by
 // what they send: half of them are below a surface's horizon, and resampling prefers those that its
-// lobes reflect, by about as much. With 1, rough lobes take lamps from rays, and have more noise;
-// narrow ones are the same.
+// lobes reflect, by about as much. With 1, noise of narrow lobes is about the same, and rough ones
+// have so much of their light by rays that reuse on every second row loses 2 % of it between walls
+// that shine.
 const float kSampleDensityFactor = 4.0f;
 
-/// Factor from an emitter's level, see LightCandidate, to the density with which `samples` samples
-/// of emitters find it [m^2/W]. Lights are picked about in proportion to what they send.
-/// `light_around`: what all of them would send to the place from all around, were nothing in the
-/// way [W/m^2]; see light_around(). Where it is 0, samples find nothing.
-LAMBENT_FN float emitter_density_scale(uint samples, float light_around) {
-  return light_around > 0.0f ? kSampleDensityFactor * float(samples) / light_around : 0.0f;
+/// Factor from emission_luminance() of an emitter to the density with which `samples` samples of
+/// emitters find it [m^2/W]. Lights are picked about in proportion to what they send. `fluence`:
+/// what all of them send to the place; see fluence() of light_tree.inl.h [W/m^2]. Where it is 0,
+/// samples find nothing.
+LAMBENT_FN float emitter_density_scale(uint samples, float fluence) {
+  return fluence > 0.0f ? kSampleDensityFactor * float(samples) / fluence : 0.0f;
 }
 
 /// Weight of a sample of emitters of this density in a coat's direct light, where rays supply the

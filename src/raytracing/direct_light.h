@@ -9,6 +9,7 @@
 #include "raytracing/glass/transmitter.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/world_access.h"
+#include "scene/attributes.h"
 #include "scene/light_sampling.h"
 #include "scene/light_tree/light_tree.h"
 #include "scene/light_tree/pick_lobe.h"
@@ -131,8 +132,8 @@ inline vec3 emitted_radiance(const LightDraws& draws, const EmitterRecord& emitt
   return emissive_of(draws.world).radiance(emitter, barycentrics, direction_ws);
 }
 
-inline float emission_level(const LightDraws& draws, const EmitterRecord& emitter) {
-  return emissive_of(draws.world).level(emitter);
+inline const Material& emitter_material(const LightDraws& draws, const EmitterRecord& emitter) {
+  return material_of(draws.world.scene(), emitter.instance);
 }
 
 #include "raytracing/direct_light.inl.h"
@@ -140,8 +141,7 @@ inline float emission_level(const LightDraws& draws, const EmitterRecord& emitte
 /// The scale of densities, see emitter_density_scale(), of a number of samples of emitters at a
 /// point.
 inline float emitter_density_scale(const World& world, int samples, const vec3& position_ws) {
-  return emitter_density_scale(static_cast<uint>(samples),
-                               lights_of(world).light_around(position_ws));
+  return emitter_density_scale(static_cast<uint>(samples), lights_of(world).fluence(position_ws));
 }
 
 /// Radiance that fog scatters of a candidate's light, divided by its extinction.

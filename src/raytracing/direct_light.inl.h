@@ -22,7 +22,7 @@
 //   EmitterRecord fetch_emitter(DrawsRef draws, uint emitter)
 //   vec3 emitted_radiance(DrawsRef draws, EmitterRecord emitter, vec2 barycentrics,
 //                         vec3 direction_ws)
-//   float emission_level(DrawsRef draws, EmitterRecord emitter)
+//   emitter_material(DrawsRef draws, EmitterRecord emitter)     for emission_luminance()
 
 /// Luminance of the light that a receiver would send on of an unoccluded candidate: the target
 /// function of resampling. The includer defines it after this file.
@@ -61,8 +61,8 @@ LAMBENT_FN ReflectedPair sampled_reflection(Reflectance reflectance, Frame frame
   ReflectedLobes lobes = evaluate_lobes(reflectance, to_viewer, to_light);
   reflected.diffuse = lobes.diffuse * light.perpendicular_irradiance;
   reflected.specular = lobes.specular * light.perpendicular_irradiance;
-  bool of_emitter = light.emission_level > 0.0f;
-  float density = light.emission_level * density_scale;
+  bool of_emitter = light.emission_luminance > 0.0f;
+  float density = light.emission_luminance * density_scale;
   if (of_emitter) {
     reflected.specular *=
         sampled_emitter_weight(reflectance, to_viewer, to_light, shares.coat, density);
@@ -113,7 +113,7 @@ LAMBENT_FN LightCandidate drawn_candidate(DrawsRef draws, LitPointRef point, Lig
   vec3 radiance = emitted_radiance(draws, emitter, seen.barycentrics, seen.to_point);
   LightCandidate candidate = {seen.to_point, seen.distance,
                               radiance / (seen.pdf * pick.probability),
-                              emission_level(draws, emitter)};
+                              emission_luminance(emitter_material(draws, emitter))};
   return candidate;
 }
 

@@ -19,8 +19,9 @@ struct LightCandidate {
   vec3 to_light;                  ///< Unit.
   float distance;                 ///< To the source [m]; infinite for directional lights.
   vec3 perpendicular_irradiance;  ///< On a surface that faces the source [W/m^2].
-  /// emission_level() of an emissive surface, which rays can hit, too [W/(m^2 sr)]; 0 for others.
-  float emission_level;
+  /// emission_luminance() of an emissive surface, which rays can hit, too [W/(m^2 sr)]; 0 for
+  /// others.
+  float emission_luminance;
 };
 
 /// A candidate without light.

@@ -165,7 +165,7 @@ LAMBENT_FN MaterialRef material_of(SceneRef scene, uint instance) {
 
 /// Luminance that a material emits without textures and vertex colours [W/(m^2 sr)]: about its
 /// brightest.
-LAMBENT_FN float emission_level(MaterialRef material) {
+LAMBENT_FN float emission_luminance(MaterialRef material) {
   if (!may_emit(material)) return 0.0f;
   return luminance(is_unlit(material) ? vec3(material.base_color) : vec3(material.emission));
 }

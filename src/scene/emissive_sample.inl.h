@@ -28,11 +28,6 @@ LAMBENT_FN PointEmission emission_of(SceneRef scene, EmitterRecord emitter, vec2
   return sent;
 }
 
-/// emission_level() of an emitter's material.
-LAMBENT_FN float emission_level(SceneRef scene, EmitterRecord emitter) {
-  return emission_level(material_of(scene, emitter.instance));
-}
-
 /// Emitted radiance along a unit direction, above the clearcoat [W/(m^2 sr)]. The clearcoat has the
 /// triangle's geometric normal here, since smooth normals and normal maps hardly change the mean.
 LAMBENT_FN vec3 emitted_radiance(SceneRef scene, EmitterRecord emitter, vec2 barycentrics,

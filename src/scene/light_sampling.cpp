@@ -219,10 +219,6 @@ glm::vec3 EmissiveTriangles::radiance(const EmitterRecord& emitter, const glm::v
   return emitted_radiance(*scene_, emitter, barycentrics, direction_ws);
 }
 
-float EmissiveTriangles::level(const EmitterRecord& emitter) const {
-  return emission_level(*scene_, emitter);
-}
-
 float EmissiveTriangles::pdf_area(std::uint32_t instance, std::uint32_t triangle,
                                   const glm::vec2& barycentrics) const {
   const auto found = links_.find(triangle_key(instance, triangle));

@@ -56,10 +56,6 @@ class EmissiveTriangles {
   glm::vec3 radiance(const EmitterRecord& emitter, const glm::vec2& barycentrics,
                      const glm::vec3& direction_ws) const;
 
-  /// Luminance that the material of an entry emits without textures and vertex colours, see
-  /// emission_level() [W/(m^2 sr)].
-  float level(const EmitterRecord& emitter) const;
-
   /// The density [1/m^2] with which `sample` draws a point of a triangle; 0 where it does not emit.
   float pdf_area(std::uint32_t instance, std::uint32_t triangle,
                  const glm::vec2& barycentrics) const;

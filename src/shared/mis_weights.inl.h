@@ -12,10 +12,11 @@ LAMBENT_REAL_FN Real mis_power_weight(Real pdf, Real other_pdf) {
   return 1.0f / (1.0f + ratio * ratio);
 }
 
-/// Density with which samples of lights find what a ray found [1/sr]: an emitter of this `level`
-/// above 0, where they find one with `scale` times its level; or, below 0, the sky, with -`level`.
-LAMBENT_REAL_FN Real sampled_density(Real level, Real scale) {
-  return select(level > 0.0f, level * scale, level * -1.0f);
+/// Density with which samples of lights find what a ray found [1/sr]: above 0, `found` is the
+/// luminance of an emitter, which they find with `scale` times as much; below 0, it is of the sky,
+/// and is minus the density itself.
+LAMBENT_REAL_FN Real sampled_density(Real found, Real scale) {
+  return select(found > 0.0f, found * scale, found * -1.0f);
 }
 
 /// Weight of light that a coat's ray found, drawn with density `pdf`, where samples of lights find

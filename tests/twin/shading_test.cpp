@@ -321,7 +321,7 @@ void expect_same_pixels(const vulkan::Device& device, const TwinWorld& twin, con
   const auto found_specular = vulkan::download<glm::vec3>(device, specular);
   Agreement normal("normal", kFilterTolerance), base("diffuse albedo", kFilterTolerance);
   Agreement f0("specular reflectance", kFilterTolerance), rest("widths", kFilterTolerance);
-  Agreement around("light around", kFilterTolerance);
+  Agreement fluence("fluence", kFilterTolerance);
   Agreement emission("emission", kFilterTolerance), viewer("to the viewer", kTolerance);
   Agreement diffuse_light("diffuse light", kFilterTolerance);
   // Narrow lobes turn small differences of normals into large ones of light
@@ -340,12 +340,12 @@ void expect_same_pixels(const vulkan::Device& device, const TwinWorld& twin, con
     f0.compare(r.f0, pixel.reflectance.f0, i);
     rest.compare({r.alpha, r.f90, 0.0f}, {pixel.reflectance.alpha, pixel.reflectance.f90, 0.0f}, i);
     emission.compare(surface.emission, pixel.emission, i);
-    around.compare(glm::vec3(lights_of(world).light_around(surface.position_ws)),
-                   glm::vec3(pixel.light_around), i);
-    EXPECT_LE(luminance(pixel.emission), pixel.emission_level * (1.0f + kFilterTolerance)) << i;
+    fluence.compare(glm::vec3(lights_of(world).fluence(surface.position_ws)),
+                    glm::vec3(pixel.fluence), i);
+    EXPECT_LE(luminance(pixel.emission), pixel.emission_luminance * (1.0f + kFilterTolerance)) << i;
     viewer.compare(gbuffer.to_viewer_ws[i], pixel.to_viewer_ws, i);
   }
-  for (const Agreement* each : {&normal, &base, &f0, &rest, &emission, &around, &viewer}) {
+  for (const Agreement* each : {&normal, &base, &f0, &rest, &emission, &fluence, &viewer}) {
     each->expect(kUndecidedShare);
   }
   diffuse_light.expect(kUndecidedLightShare);

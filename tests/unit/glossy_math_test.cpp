@@ -54,17 +54,17 @@ TEST(CoatShares, RaysAndSamplesOfEmittersShareAllLight) {
   metal.f90 = 1.0f;
   metal.alpha = 0.2f;
   const vec3 to_viewer = normalize(vec3(0.3f, 0.1f, 1.0f));
-  for (const float light_around : {0.0f, 1e-30f, 0.5f, 40.0f, 1e30f}) {
-    const float scale = emitter_density_scale(2u, light_around);
-    for (const float level : {1e-3f, 1.0f, 1e4f}) {
+  for (const float fluence : {0.0f, 1e-30f, 0.5f, 40.0f, 1e30f}) {
+    const float scale = emitter_density_scale(2u, fluence);
+    for (const float emitted : {1e-3f, 1.0f, 1e4f}) {
       for (const vec3& towards : {vec3(0.0f, 0.0f, 1.0f), vec3(-0.3f, -0.1f, 1.0f), vec3(1.0f)}) {
         const vec3 to_light = normalize(towards);
         const float pdf = pdf_ggx_reflection(to_viewer, to_light, metal.alpha);
         const float by_samples =
-            sampled_emitter_weight(metal, to_viewer, to_light, 1.0f, level * scale);
-        const float by_rays = found_light_weight(pdf, sampled_density(level, scale));
-        EXPECT_NEAR(by_samples + by_rays, 1.0f, 1e-6f) << level << ", " << light_around;
-        if (light_around == 0.0f) {
+            sampled_emitter_weight(metal, to_viewer, to_light, 1.0f, emitted * scale);
+        const float by_rays = found_light_weight(pdf, sampled_density(emitted, scale));
+        EXPECT_NEAR(by_samples + by_rays, 1.0f, 1e-6f) << emitted << ", " << fluence;
+        if (fluence == 0.0f) {
           EXPECT_EQ(by_rays, 1.0f);
         }
       }

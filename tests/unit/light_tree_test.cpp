@@ -366,9 +366,9 @@ TEST(LightTree, EstimatesTheSumOfAllLights) {
 }
 
 // What coats and samples of emitters share lamps by.
-TEST(LightTree, SaysWhatLightThereIsAround) {
+TEST(LightTree, BoundsTheFluence) {
   Scene scene;
-  EXPECT_EQ(Lights(scene).tree.light_around(vec3(0.0f)), 0.0f);
+  EXPECT_EQ(Lights(scene).tree.fluence(vec3(0.0f)), 0.0f);
   // More than are asked one by one, all at a distance of 2 m
   constexpr int kLights = 20;
   for (int i = 0; i < kLights; ++i) {
@@ -378,10 +378,10 @@ TEST(LightTree, SaysWhatLightThereIsAround) {
   }
   const float sum = kLights * 3.0f / 4.0f;
   const Lights lights(scene);
-  EXPECT_GT(lights.tree.light_around(vec3(0.0f)), sum);
-  EXPECT_LT(lights.tree.light_around(vec3(0.0f)), 4.0f * sum);  // clusters count by near ends
+  EXPECT_GT(lights.tree.fluence(vec3(0.0f)), sum);
+  EXPECT_LT(lights.tree.fluence(vec3(0.0f)), 4.0f * sum);  // clusters count by near ends
   // From far away
-  EXPECT_NEAR(lights.tree.light_around(vec3(0.0f, 0.0f, 200.0f)), sum * 1e-4f, 1e-3f * sum * 1e-4f);
+  EXPECT_NEAR(lights.tree.fluence(vec3(0.0f, 0.0f, 200.0f)), sum * 1e-4f, 1e-3f * sum * 1e-4f);
 }
 
 }  // namespace

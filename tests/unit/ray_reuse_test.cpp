@@ -84,7 +84,7 @@ class RayReuseTest : public testing::Test {
     if (uniform() < 0.03f) ray.radiance *= 200.0f;
     if (uniform() < 0.2f) {
       ray.apart = vec3(20.0f, 10.0f, 5.0f);
-      ray.apart_level = 80.0f * uniform() - 40.0f;
+      ray.apart_luminance = 80.0f * uniform() - 40.0f;
     }
     return ray;
   }

@@ -159,7 +159,7 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
       path.throughput *= volume_transmittance(surface.transmission, hits[k].distance);
       met_.hit[i] = 1;
       met_.surfaces[i] = surface;
-      meet_emitter(path, surface.emission, emission_level(material_of(scene, hits[k].instance)),
+      meet_emitter(path, surface.emission, emission_luminance(material_of(scene, hits[k].instance)),
                    rays_[i]);
       met_.coat_shares[i] =
           regularize_lobes(dot(surface.normal_ws, met_.to_viewer_ws[i]),

@@ -49,7 +49,7 @@ void queue_lights_behind(const LightDraws& draws, const Media& media, const Surf
   for_each_light(draws, receiver, random, [&](const LightCandidate& light) {
     vec3 transmitted = sampled_transmission(transmitter, light, density_scale);
     // Rays see no fog, and nor do samples of what they find, too
-    if (light.emission_level <= 0.0f && !media.empty()) {
+    if (light.emission_luminance <= 0.0f && !media.empty()) {
       transmitted *= transmittance(media, surface.position_ws, light.to_light, light.distance);
     }
     queue(light, transmitted);

@@ -43,7 +43,7 @@ void main() {
     path.stage = kStageBeyondCoat;
   }
   path.throughput *= volume_transmittance(surface.transmission, args.hits.at[k].distance);
-  meet_emitter(path, surface.emission, surface.emission_level, ray);
+  meet_emitter(path, surface.emission, surface.emission_luminance, ray);
   args.coat_rays.at[i] = ray;
   float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
   float gi_share = args.has_field != 0u ? surface.gi_share : 0.0f;

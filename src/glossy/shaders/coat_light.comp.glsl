@@ -31,7 +31,7 @@ void main() {
   RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
   NextRay next = go_on(surface.transmission, surface.reflectance, shares, point.normal_ws,
                        point.geometric_normal_ws, surface.to_viewer_ws,
-                       emitter_density_scale(args.emitter_samples, surface.light_around),
+                       emitter_density_scale(args.emitter_samples, surface.fluence),
                        args.bounce, random, path);
   if (path.pdf > 0.0f) append_path(args.next, i, path, surface.cone, point, next);
 }

@@ -32,6 +32,6 @@ void main() {
   args.coat_rays.at[i].pdf = drawn.pdf;
   CoatPath path =
       CoatPath(vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kStageOwnCoat, kForksNowhere,
-               emitter_density_scale(args.emitter_samples, surface.light_around));
+               emitter_density_scale(args.emitter_samples, surface.fluence));
   append_path(args.list, i, path, surface.cone, point, NextRay(drawn.direction_ws, 1.0f));
 }

@@ -56,7 +56,7 @@ void main() {
       coat_under_layers(surface.reflectance, dot(at.lobe.normal_ws, at.lobe.to_viewer_ws));
   at.inverse_tolerance = inverse_plane_tolerance(camera, at.lobe.position_ws);
   at.own = fetch_ray(args, pixel);
-  at.density_scale = emitter_density_scale(args.emitter_samples, surface.light_around);
+  at.density_scale = emitter_density_scale(args.emitter_samples, surface.fluence);
   find_lobe(at);
   float share = surface.coat_shares.coat;
   ReflectedRays found = reuse_rays(args, pixel, at, args.sample_index, args.rows);

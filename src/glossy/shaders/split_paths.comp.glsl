@@ -26,7 +26,7 @@ void main() {
   CoatPath branch;
   NextRay next = go_on_reflected(surface.transmission, surface.reflectance, surface.coat_shares,
                                  point.normal_ws, point.geometric_normal_ws, surface.to_viewer_ws,
-                                 emitter_density_scale(args.emitter_samples, surface.light_around),
+                                 emitter_density_scale(args.emitter_samples, surface.fluence),
                                  random, path, branch);
   args.paths.at[k].fork = path.fork;
   if (branch.pdf > 0.0f) append_path(args.reflected, i, branch, surface.cone, point, next);

@@ -26,7 +26,7 @@ void main() {
   vec2 u = next_uniform2(random);
   NextRay next = extend_through_glass(
       surface.transmission, surface.reflectance, point.normal_ws, surface.to_viewer_ws,
-      emitter_density_scale(args.emitter_samples, surface.light_around),
+      emitter_density_scale(args.emitter_samples, surface.fluence),
       vec3(u, next_uniform(random)), path);
   if (path.pdf > 0.0f) append_path(args.list, i, path, surface.cone, point, next);
 }

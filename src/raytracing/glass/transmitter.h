@@ -33,8 +33,8 @@ LAMBENT_FN ThroughLobe through_lobe(Transmitter at, vec3 to_light_ws) {
 LAMBENT_FN vec3 sampled_transmission(Transmitter at, LightCandidate light, float density_scale) {
   ThroughLobe lobe = through_lobe(at, light.to_light);
   vec3 transmitted = lobe.value * light.perpendicular_irradiance;
-  if (light.emission_level > 0.0f) {
-    transmitted *= 1.0f - found_light_weight(lobe.pdf, light.emission_level * density_scale);
+  if (light.emission_luminance > 0.0f) {
+    transmitted *= 1.0f - found_light_weight(lobe.pdf, light.emission_luminance * density_scale);
   }
   return transmitted;
 }

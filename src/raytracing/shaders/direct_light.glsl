@@ -54,8 +54,8 @@ vec3 emitted_radiance(LightDrawsArguments draws, EmitterRecord emitter, vec2 bar
   return emitted_radiance(draws.scene, emitter, barycentrics, direction_ws);
 }
 
-float emission_level(LightDrawsArguments draws, EmitterRecord emitter) {
-  return emission_level(draws.scene, emitter);
+MaterialRecord emitter_material(LightDrawsArguments draws, EmitterRecord emitter) {
+  return material_of(draws.scene, emitter.instance);
 }
 
 #include "raytracing/direct_light.inl.h"

@@ -62,7 +62,7 @@ void main() {
   point.albedo_shape = 0u;
   ThroughReceiver receiver =
       ThroughReceiver(point, transmitter,
-                      emitter_density_scale(args.tree_samples, surface.light_around));
+                      emitter_density_scale(args.tree_samples, surface.fluence));
   RandomStream random = make_random_stream(point.random_index, args.salt, args.seed);
   uint slots = slot_count(args);
   LightPicks picks;
@@ -74,7 +74,7 @@ void main() {
       light = candidate_of_slot(args, receiver, slot, picks, random);
       transmitted = sampled_transmission(transmitter, light, receiver.density_scale);
       // Rays see no fog, and nor do samples of what they find, too
-      if (light.emission_level <= 0.0f) {
+      if (light.emission_luminance <= 0.0f) {
         transmitted *= transmittance(args, point.position_ws, light.to_light, light.distance);
       }
     }

@@ -52,7 +52,7 @@ void main() {
   ReflectingReceiver receiver =
       ReflectingReceiver(point, surface.reflectance, frame, to_local(frame, surface.to_viewer_ws),
                          surface.coat_shares,
-                         emitter_density_scale(args.tree_samples, surface.light_around));
+                         emitter_density_scale(args.tree_samples, surface.fluence));
   bool asks = point.random_index != kNoDirectLight;
   RandomStream random = make_random_stream(point.random_index, args.salt, args.seed);
   uint slots = slot_count(args);

@@ -36,9 +36,9 @@ void main() {
     pixel.emission = surface.emission;
     MaterialRecord material = fetch_material(args.scene, surface.material);
     if (is_unlit(material)) pixel.emission *= args.unlit_radiance;
-    pixel.emission_level = emission_level(material);
-    pixel.light_around =
-        light_around(SeenLightTree(args.scene, kNoVisibilityRow), surface.position_ws);
+    pixel.emission_luminance = emission_luminance(material);
+    pixel.fluence =
+        fluence(SeenLightTree(args.scene, kNoVisibilityRow), surface.position_ws);
     pixel.transmission = surface.transmission;
     pixel.cone = RayCone(footprint.width, args.cones.at[i].spread);
     pixel.flags = 0u;

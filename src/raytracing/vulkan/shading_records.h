@@ -37,9 +37,9 @@ struct PixelSurfaceRecord {
   uint flags;
   float gi_share;  ///< See Surface.
   CoatShares coat_shares;
-  float sample_weight;   ///< See Hit.
-  float emission_level;  ///< Of its material, see emission_level() [W/(m^2 sr)].
-  float light_around;    ///< See emitter_density_scale() [W/m^2].
+  float sample_weight;       ///< See Hit.
+  float emission_luminance;  ///< Of its material, see emission_luminance() [W/(m^2 sr)].
+  float fluence;             ///< Of the light tree, see light_tree.inl.h [W/m^2].
 };
 
 LAMBENT_DEVICE_ARRAY(LitPointArray, LitPointRecord, 4)

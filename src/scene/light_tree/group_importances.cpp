@@ -47,8 +47,8 @@ void pick_below_in_groups(const GroupNumbers& tree, uint link, const vec3& posit
   kernel(tree, link, position_ws, normal_ws, lobe, count, picks);
 }
 
-float light_around_in_groups(const GroupNumbers& tree, const vec3& position_ws) {
-  static const auto kernel = LAMBENT_BEST_LEVEL(light_around_in_groups);
+float fluence_in_groups(const GroupNumbers& tree, const vec3& position_ws) {
+  static const auto kernel = LAMBENT_BEST_LEVEL(fluence_in_groups);
   return kernel(tree, position_ws);
 }
 

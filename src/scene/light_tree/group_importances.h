@@ -39,14 +39,14 @@ inline float visibility_in_groups(const GroupNumbers& tree, uint group, uint chi
   return known ? visibility_weight(tree.weights[group * kLightGroupSize + child]) : 1.0f;
 }
 
-/// pick_lights(), pick_below(), light_around() and bounded_lobe() of light_tree.inl.h; the same
+/// pick_lights(), pick_below(), fluence() and bounded_lobe() of light_tree.inl.h; the same
 /// bits on all instruction sets.
 void pick_in_groups(const GroupNumbers& tree, const vec3& position_ws, const vec3& normal_ws,
                     const PickLobe& lobe, uint count, LightPicks& picks);
 void pick_below_in_groups(const GroupNumbers& tree, uint link, const vec3& position_ws,
                           const vec3& normal_ws, const PickLobe& lobe, uint count,
                           LightPicks& picks);
-float light_around_in_groups(const GroupNumbers& tree, const vec3& position_ws);
+float fluence_in_groups(const GroupNumbers& tree, const vec3& position_ws);
 PickLobe bounded_in_groups(const GroupNumbers& tree, const vec3& position_ws, const vec3& normal_ws,
                            const PickLobe& lobe);
 

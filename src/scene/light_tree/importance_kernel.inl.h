@@ -80,9 +80,9 @@ __attribute__((flatten)) static void pick_below_in_groups(const GroupNumbers& tr
   pick_below(tree, link, position_ws, normal_ws, lobe, count, picks);
 }
 
-__attribute__((flatten)) static float light_around_in_groups(const GroupNumbers& tree,
-                                                             const vec3& position_ws) {
-  return light_around(tree, position_ws);
+__attribute__((flatten)) static float fluence_in_groups(const GroupNumbers& tree,
+                                                        const vec3& position_ws) {
+  return fluence(tree, position_ws);
 }
 
 __attribute__((flatten)) static PickLobe bounded_in_groups(const GroupNumbers& tree,

@@ -237,8 +237,8 @@ PickLobe LightTree::bounded(const glm::vec3& position_ws, const glm::vec3& norma
   return bounded_in_groups(seen_from(position_ws, normal_ws), position_ws, normal_ws, lobe);
 }
 
-float LightTree::light_around(const glm::vec3& position_ws) const {
-  return light_around_in_groups(groups_.all_numbers(), position_ws);
+float LightTree::fluence(const glm::vec3& position_ws) const {
+  return fluence_in_groups(groups_.all_numbers(), position_ws);
 }
 
 LightPick LightTree::pick(const glm::vec3& position_ws, const glm::vec3& normal_ws,

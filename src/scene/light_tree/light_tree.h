@@ -55,9 +55,8 @@ class LightTree {
   PickLobe bounded(const glm::vec3& position_ws, const glm::vec3& normal_ws,
                    const PickLobe& lobe) const;
 
-  /// Irradiance from all around that unoccluded lights of the tree cause at a point, about [W/m^2],
-  /// luminance.
-  float light_around(const glm::vec3& position_ws) const;
+  /// Fluence rate of all lights of the tree at a point, see light_tree.inl.h [W/m^2], luminance.
+  float fluence(const glm::vec3& position_ws) const;
 
   /// Picks a light for a point; probability 0 where none can be seen.
   LightPick pick(const glm::vec3& position_ws, const glm::vec3& normal_ws, const PickLobe& lobe,

@@ -26,9 +26,10 @@ LAMBENT_FN NodeImportances weighted_importances(LightTreeRef tree, uint group, v
   return importances;
 }
 
-/// Irradiance from all around that unoccluded lights of the tree cause at a point, about
-/// [W/m^2], luminance.
-LAMBENT_FN float light_around(LightTreeRef tree, vec3 position_ws) {
+/// Fluence rate at a point, which is irradiance from all around, of all lights of the tree as if
+/// nothing were in the way [W/m^2], luminance. From the clusters at the root, as importances bound
+/// them: within them up to about 3 times as much.
+LAMBENT_FN float fluence(LightTreeRef tree, vec3 position_ws) {
   if (light_tree_size(tree) == 0u) return 0.0f;
   NodeImportances importances;
   group_importances(tree, 0u, position_ws, vec3(0.0f), no_pick_lobe(), importances.of);
