@@ -52,6 +52,21 @@ LAMBENT_FN float averaged_frames(float before, float most) {
   return min(before + 1.0f, most);
 }
 
+// Ratios of a pixel's lookups, the lesser over the greater, from which averages of differences from
+// them begin to be forgotten, and at which they are. Between frames of bumpy walls lookups differ
+// by a tenth or so; where single rays of probes or edits change them by half, so that old
+// differences would leave stains.
+const float kSameLookup = 0.85f;
+const float kOtherLookup = 0.6f;
+
+/// The share of its frames that an average of differences from lookups keeps. `before`: the average
+/// luminance of the lookups in it; `now`: that of this frame's.
+LAMBENT_FN float kept_by_lookup(float before, float now) {
+  float greater = max(before, now);
+  float ratio = greater > 0.0f ? min(before, now) / greater : 1.0f;
+  return clamp((ratio - kOtherLookup) / (kSameLookup - kOtherLookup), 0.0f, 1.0f);
+}
+
 /// Variance of an average of `frames` frames, given that of the previous average and of this frame.
 LAMBENT_FN float averaged_variance(float before, float now, float frames) {
   float share = 1.0f / frames;

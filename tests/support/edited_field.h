@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "field/field_access.h"
@@ -20,7 +21,9 @@ namespace lambent::test {
 /// A scene that may be edited, its world, and a field over it that has averaged a few updates.
 struct Edited {
   explicit Edited(const std::string& name, const FieldSettings& settings = few(), int updates = 6)
-      : scene(scenes::make(name).value()),
+      : Edited(scenes::make(name).value(), settings, updates) {}
+  Edited(Scene made, const FieldSettings& settings, int updates)
+      : scene(std::move(made)),
         world(scene),
         field(IrradianceField::make(settings, open_bounds(world)).value()) {
     for (int i = 0; i < updates; ++i) field.update(world);

@@ -103,6 +103,24 @@ TEST_F(LightHistoryTest, ForgetsLightOnceTheWorldHasChanged) {
   EXPECT_EQ(a.image.find("")->pixels, b.image.find("")->pixels);
 }
 
+TEST_F(LightHistoryTest, ForgetsDifferencesFromLookupsThatHaveChanged) {
+  // A field that is four times too bright for a few frames, as by a single ray that met a bright
+  // spot
+  const std::vector<Material> materials = stage.scene.materials;
+  for (Material& material : stage.scene.materials) material.emission *= 4.0f;
+  const World bright(stage.scene);
+  IrradianceField field = *IrradianceField::make(stage.field->settings(), open_bounds(bright));
+  for (int i = 0; i < 3; ++i) field.update(bright);
+  stage.scene.materials = materials;
+  Renderer renderer(stage.world, {.field = &field});
+  for (int i = 0; i < 6; ++i) renderer.render(camera(), averaging(10)).value();
+  field = std::move(*stage.field);
+  stage.field.emplace(*IrradianceField::make(field.settings(), open_bounds(stage.world)));
+  for (int i = 0; i < 3; ++i) stage.field->update(stage.world);
+  const RenderedFrame now = renderer.render(camera(), averaging(10)).value();
+  EXPECT_LT(error_of(now, truth_from(camera()), "irradiance"), 0.2);
+}
+
 TEST_F(LightHistoryTest, RefusesPicturesInPartsOrOfManySamples) {
   const auto refused = [&](auto change) {
     FrameSettings settings = averaging(4);
@@ -150,6 +168,16 @@ TEST(LightHistoryMath, FindsTheSameSurfaceAndNoOther) {
   EXPECT_FALSE(is_history(taps_at(vec2(1.5f, 1.5f), 1.5f)));
   EXPECT_FALSE(is_history(taps_at(vec2(0.5f, 2.5f), 1.0f)));
   EXPECT_FALSE(is_history(taps_at(vec2(-3.0f, 1.0f), 1.0f)));
+}
+
+TEST(LightHistoryMath, KeepsAveragesWhileLookupsStayTheSame) {
+  EXPECT_EQ(kept_by_lookup(2.0f, 2.0f), 1.0f);
+  EXPECT_EQ(kept_by_lookup(2.0f, 1.8f), 1.0f);
+  EXPECT_EQ(kept_by_lookup(1.0f, 2.0f), 0.0f);
+  EXPECT_EQ(kept_by_lookup(2.0f, 1.0f), 0.0f);
+  EXPECT_EQ(kept_by_lookup(0.0f, 0.0f), 1.0f);
+  EXPECT_EQ(kept_by_lookup(0.0f, 1.0f), 0.0f);
+  EXPECT_NEAR(kept_by_lookup(1.0f, 0.725f), 0.5f, 1e-5f);
 }
 
 TEST(LightHistoryMath, AveragesVarianceAsThatOfAMean) {

@@ -25,6 +25,8 @@ void shape(const FilteredPixels& pixels, LightHistory& history) {
   history.normals_ws = pixels.geometric_normals_ws;
   history.depths = pixels.depths;
   history.differences.resize(pixels.gathered.size());
+  history.looked_up.resize(pixels.gathered.size());
+  history.gathered_frames.resize(pixels.gathered.size());
   history.excess.resize(pixels.excess.size());
   history.emitters.resize(pixels.emitters.size());
   history.gathered_variance.resize(pixels.gathered_variance.size());
@@ -106,7 +108,8 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
             depth_tolerance(depth, pixel_width_at_depth(camera, depth), dot(normal_ws, to_viewer)),
             normal_ws);
       }
-      float frames = 1.0f;
+      float frames = 1.0f, gathered_frames = 1.0f;
+      float looked_up = pixels.gathered.empty() ? 0.0f : luminance(pixels.looked_up[i]);
       if (is_history(taps)) {
         float most = by.most_frames;
         if (by.moved != nullptr) {
@@ -114,18 +117,26 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
                                                             pixels.geometric_normals_ws[i]));
         }
         frames = averaged_frames(weighted_sum(last.frames, taps), most);
+        if (!pixels.gathered.empty()) {
+          const float kept = kept_by_lookup(weighted_sum(last.looked_up, taps), looked_up);
+          gathered_frames = averaged_frames(kept * weighted_sum(last.gathered_frames, taps), most);
+        }
       }
       next.frames[i] = frames;
       if (!pixels.gathered.empty()) {
         vec3 difference = pixels.gathered[i] - pixels.looked_up[i];
-        average(last.differences, taps, frames, difference);
-        average(last.excess, taps, frames, pixels.excess[i]);
+        average(last.differences, taps, gathered_frames, difference);
+        average(last.excess, taps, gathered_frames, pixels.excess[i]);
+        average(last.looked_up, taps, gathered_frames, looked_up);
         next.differences[i] = difference;
+        next.looked_up[i] = looked_up;
+        next.gathered_frames[i] = gathered_frames;
         next.excess[i] = pixels.excess[i];
         pixels.gathered[i] = pixels.looked_up[i] + difference;
       }
       if (!pixels.gathered_variance.empty()) {
-        average_variance(last.gathered_variance, taps, frames, pixels.gathered_variance[i]);
+        average_variance(last.gathered_variance, taps, gathered_frames,
+                         pixels.gathered_variance[i]);
         next.gathered_variance[i] = pixels.gathered_variance[i];
       }
       if (!pixels.emitters.empty()) {

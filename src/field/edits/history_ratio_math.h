@@ -9,22 +9,23 @@
 
 LAMBENT_BEGIN
 
-// The estimate of one update's rays is corrected by at most this factor. Where it is further off,
-// the rays hit too little light for a correction to make sense.
+// The estimate of one update's rays is raised by at most this factor. Where it is further below the
+// average, the rays hit too little light for a correction to make sense. It is lowered by any
+// factor: a single ray that meets a very bright spot brings a hundred times the average, which
+// holds as much of it as is right, and half of that ray's light after an edit would be a flash.
 const float kMaxHistoryRatio = 2.0f;
 
 // A probe whose light an edit changes by less than this fraction keeps its old light and its
 // history. It is half of the smallest visible difference.
 const float kChangedFraction = 0.005f;
 
-/// The factor from the last estimate of a texel to the light that the probe holds, limited by
+/// The factor from the last estimate of a texel to the light that the probe holds, at most
 /// kMaxHistoryRatio.
 LAMBENT_FN vec4 history_ratio_between(vec4 last_irradiance_estimate, vec4 held) {
   vec4 history_ratio = vec4(1.0f);
   for (int c = 0; c < 3; ++c) {
     if (last_irradiance_estimate[c] > kTiniestLight) {
-      history_ratio[c] =
-          clamp(held[c] / last_irradiance_estimate[c], 1.0f / kMaxHistoryRatio, kMaxHistoryRatio);
+      history_ratio[c] = min(held[c] / last_irradiance_estimate[c], kMaxHistoryRatio);
     }
   }
   return history_ratio;
