@@ -10,6 +10,7 @@
 
 #include "first_picture/views.h"
 #include "raytracing/direct_light.h"
+#include "raytracing/find_solid_sides.h"
 #include "raytracing/world_access.h"
 #include "shared/constants.h"
 #include "shared/random.h"
@@ -35,6 +36,11 @@ constexpr float kMinStreetGround = 10.0f;
 // is at least this share of the median height of all places. In rooms whose heights look like
 // metres, kMinRoomHeight is enough: aisles and galleries beside a high hall are places, too.
 constexpr float kStandingShare = 0.75f;
+
+// Where at least this share of the places where an observer could stand is in the open, reached by
+// light of the sky or of lamps, nobody stands in the others: they are within closed blocks, as the
+// houses along a street often are.
+constexpr float kMinOpenShare = 0.1f;
 
 // Most places from which panoramas are traced.
 constexpr std::size_t kMaxEyes = 110;
@@ -97,6 +103,16 @@ glm::vec3 eye_at(const OpenPlace& place) {
     eye = std::min(kEyeHeight, kMaxEyeShareOfHeight * height);
   }
   return {place.position_ws.x, place.floor + eye, place.position_ws.z};
+}
+
+/// The places that light reaches, if these are enough; otherwise all.
+std::vector<OpenPlace> lit_places(const World& world, const std::vector<OpenPlace>& places) {
+  const SolidSides sides = find_solid_sides(world, {});
+  std::vector<OpenPlace> lit;
+  std::ranges::copy_if(places, std::back_inserter(lit),
+                       [&](const OpenPlace& place) { return sides.is_open(eye_at(place)); });
+  const float needed = kMinOpenShare * static_cast<float>(places.size());
+  return static_cast<float>(lit.size()) >= std::max(needed, 1.0f) ? lit : places;
 }
 
 /// The hits of rays around an eye: kRings.size() rings of kRingRays hits.
@@ -187,7 +203,8 @@ float score_view(const Scene& scene, const Panorama& panorama, int direction, fl
 std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
                                   const Bounds& bounds, float vertical_fov, float aspect) {
   const float scale = diagonal(bounds);
-  const std::vector<OpenPlace> places = standing_places(survey.sheltered, kMaxEyes);
+  const std::vector<OpenPlace> places =
+      lit_places(world, standing_places(survey.sheltered, kMaxEyes));
   const std::size_t eyes = places.size();
   constexpr std::size_t kPanoramaRays = kRings.size() * kRingRays;
   std::vector<Ray> rays;

@@ -250,6 +250,31 @@ TEST(FirstView, StandsInAStreetThatItsWindowsLight) {
 }
 
 // A window is not what to look at from close by, however far one sees through it.
+TEST(FirstView, StandsInAnAlleyAndNotWithinItsClosedHouses) {
+  // Two rows of houses, wall to wall
+  constexpr float kDepth = 22.0f, kEnd = 10.0f;
+  std::vector<Mesh> meshes = {
+      box_mesh({-4, -0.1f, kEnd - 7 * kDepth}, {4, 0, kEnd}),
+      box_mesh({-4, 0, kEnd}, {4, 30, kEnd + 0.1f}),
+      box_mesh({-4, 0, kEnd - 7 * kDepth - 0.1f}, {4, 30, kEnd - 7 * kDepth})};
+  std::vector<Bounds> houses;
+  for (int k = 0; k < 7; ++k) {
+    for (const float side : {-1.0f, 1.0f}) {
+      const float z = kEnd - kDepth * static_cast<float>(k);
+      const float height = 28.0f + static_cast<float>((7 * k + (side > 0.0f ? 5 : 0)) % 15);
+      const auto along = [&](float a, float b, float low, float high, float from, float to) {
+        return Bounds{{std::min(side * a, side * b), low, from},
+                      {std::max(side * a, side * b), high, to}};
+      };
+      houses.push_back(along(4.0f, 24.0f, 0.0f, height, z - kDepth, z));
+      meshes.push_back(box_mesh(houses.back().min, houses.back().max));
+    }
+  }
+  const Scene scene = scene_of(std::move(meshes));
+  const FirstView view = first_view(World(scene)).value();
+  for (const Bounds& house : houses) EXPECT_FALSE(holds(house, eye_of(view.camera)));
+}
+
 TEST(FirstView, LooksIntoTheRoomRatherThanOutOfItsWindow) {
   // A shaft with a window in its wall at +X
   std::vector<Mesh> parts;
