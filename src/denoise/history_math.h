@@ -52,15 +52,15 @@ LAMBENT_FN float averaged_frames(float before, float most) {
   return min(before + 1.0f, most);
 }
 
-// Ratios of a pixel's lookups, the lesser over the greater, from which averages of differences from
-// them begin to be forgotten, and at which they are. Between frames of bumpy walls lookups differ
-// by a tenth or so; where single rays of probes or edits change them by half, so that old
-// differences would leave stains.
+// Gathered light is averaged as its difference from the lookup, which is wrong once the lookup has
+// changed much: a difference from a brighter lookup would leave a dark stain. Where the smaller of
+// the lookups before and now is at least kSameLookup of the larger, the average is kept; where it
+// is below kOtherLookup, it is discarded.
 const float kSameLookup = 0.85f;
 const float kOtherLookup = 0.6f;
 
-/// The share of its frames that an average of differences from lookups keeps. `before`: the average
-/// luminance of the lookups in it; `now`: that of this frame's.
+/// The share of its frames that an average of differences from lookups keeps. `before`: the mean
+/// luminance of the lookups in the average; `now`: the luminance of this frame's lookup [W/m^2].
 LAMBENT_FN float kept_by_lookup(float before, float now) {
   float greater = max(before, now);
   float ratio = greater > 0.0f ? min(before, now) / greater : 1.0f;

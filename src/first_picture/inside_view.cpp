@@ -11,6 +11,7 @@
 #include "first_picture/views.h"
 #include "raytracing/direct_light.h"
 #include "raytracing/find_solid_sides.h"
+#include "raytracing/places/places.h"
 #include "raytracing/world_access.h"
 #include "shared/constants.h"
 #include "shared/random.h"
@@ -37,9 +38,9 @@ constexpr float kMinStreetGround = 10.0f;
 // metres, kMinRoomHeight is enough: aisles and galleries beside a high hall are places, too.
 constexpr float kStandingShare = 0.75f;
 
-// Where at least this share of the places where an observer could stand is in the open, reached by
-// light of the sky or of lamps, nobody stands in the others: they are within closed blocks, as the
-// houses along a street often are.
+// Where light of the sky or of lamps reaches at least this share of the places where an observer
+// could stand, nobody stands in the others, which are within closed blocks: the houses along a
+// street often are.
 constexpr float kMinOpenShare = 0.1f;
 
 // Most places from which panoramas are traced.
@@ -107,12 +108,16 @@ glm::vec3 eye_at(const OpenPlace& place) {
 
 /// The places that light reaches, if these are enough; otherwise all.
 std::vector<OpenPlace> lit_places(const World& world, const std::vector<OpenPlace>& places) {
+  std::vector<glm::vec3> eyes(places.size());
+  std::transform(places.begin(), places.end(), eyes.begin(), eye_at);
   const SolidSides sides = find_solid_sides(world, {});
+  const std::vector<std::uint8_t> is_lit = see_open_places(world, sides.open_space, eyes);
   std::vector<OpenPlace> lit;
-  std::ranges::copy_if(places, std::back_inserter(lit),
-                       [&](const OpenPlace& place) { return sides.is_open(eye_at(place)); });
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (is_lit[i] != 0) lit.push_back(places[i]);
+  }
   const float needed = kMinOpenShare * static_cast<float>(places.size());
-  return static_cast<float>(lit.size()) >= std::max(needed, 1.0f) ? lit : places;
+  return static_cast<float>(lit.size()) >= needed && !lit.empty() ? lit : places;
 }
 
 /// The hits of rays around an eye: kRings.size() rings of kRingRays hits.

@@ -6,6 +6,10 @@
 namespace lambent {
 namespace {
 
+// Offset of places from the grid, into its hull [places]: scenes and grids are made in round
+// numbers, and a place in a wall's own plane would be on either side of it by chance.
+const glm::vec3 kOffPlanes(0.437f, 0.511f, 0.473f);
+
 std::size_t triangles_of(const Scene& scene, const Instance& instance) {
   return scene.meshes[instance.mesh].triangles.size();
 }
@@ -15,6 +19,12 @@ std::size_t words_of(const Scene& scene, const Instance& instance) {
 }
 
 }  // namespace
+
+glm::vec3 PlaceGrid::position_ws(const glm::ivec3& coords) const {
+  const glm::vec3 cells =
+      (glm::vec3(coords) + kOffPlanes) * glm::vec3(count - 1) / glm::vec3(count);
+  return origin_ws + axes * (spacing * cells);
+}
 
 std::array<std::size_t, 8> PlaceGrid::places_around(const glm::vec3& point_ws) const {
   const glm::ivec3 base =

@@ -25,6 +25,13 @@ struct PlaceGrid {
   glm::vec3 cells_at(const glm::vec3& point_ws) const {
     return ((point_ws - origin_ws) * axes) / spacing;
   }
+  /// The coordinates of a place, by its index: along x first, then y.
+  glm::ivec3 coords(std::size_t place) const {
+    const int i = static_cast<int>(place);
+    return {i % count.x, i / count.x % count.y, i / (count.x * count.y)};
+  }
+  /// Where the place with these coordinates is [m]: off the grid's own planes, within its hull.
+  glm::vec3 position_ws(const glm::ivec3& coords) const;
   /// The places around a point, or those nearest to it where it is outside.
   std::array<std::size_t, 8> places_around(const glm::vec3& point_ws) const;
 };

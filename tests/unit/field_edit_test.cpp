@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "field/edits/history_ratio_math.h"
 #include "field/field_access.h"
 #include "field/field_state.h"
 #include "field/probes/probe_status.h"
@@ -43,8 +44,7 @@ TEST(FieldEdit, LightThatGetsBrighterArrivesInOneUpdateWithoutAProbeRay) {
 
 TEST(FieldEdit, SingleBrightRaysDoNotFlash) {
   // A lamp just above the floor lights a spot that few rays hit, each of which brings far more than
-  // all others. 5.5 where such rays count by half after an edit, and not as little as in the
-  // average
+  // all others. This was 5.5 while the history ratio was at least a half
   FieldSettings settings = Edited::few();
   settings.corrections = false;
   Scene scene = scenes::make("cornell-spot").value();
@@ -62,6 +62,14 @@ TEST(FieldEdit, SingleBrightRaysDoNotFlash) {
     brightest = std::max(brightest, after[i] / std::max(before[i], least));
   }
   EXPECT_LT(brightest, 1.25);
+}
+
+TEST(FieldEdit, HistoryRatiosCanBeDividedBy) {
+  const vec4 ratio = history_ratio_between(vec4(1.0f), vec4(0.0f, 0.5f, 9.0f, 0.0f));
+  EXPECT_GT(ratio.x, 0.0f);
+  EXPECT_EQ(ratio.y, 0.5f);
+  EXPECT_EQ(ratio.z, kMaxHistoryRatio);
+  EXPECT_EQ(history_ratio_between(vec4(0.0f), vec4(1.0f)).x, 1.0f);
 }
 
 TEST(FieldEdit, LightThatGoesOutLeavesDarkness) {

@@ -20,6 +20,27 @@ void average_variance(const std::vector<float>& before, const HistoryTaps& taps,
   if (frames > 1.0f) now = averaged_variance(weighted_sum(before, taps), now, frames);
 }
 
+/// Averages what a pixel gathers over at most `most` frames, over fewer where its lookup has
+/// changed.
+void average_gathered(const LightHistory& last, const HistoryTaps& taps, float most, std::size_t i,
+                      FilteredPixels& pixels, LightHistory& next) {
+  vec3& difference = next.differences[i] = pixels.gathered[i] - pixels.looked_up[i];
+  float& looked_up = next.looked_up[i] = luminance(pixels.looked_up[i]);
+  float& frames = next.gathered_frames[i] = 1.0f;
+  if (is_history(taps)) {
+    const float kept = kept_by_lookup(weighted_sum(last.looked_up, taps), looked_up);
+    frames = averaged_frames(kept * weighted_sum(last.gathered_frames, taps), most);
+  }
+  average(last.differences, taps, frames, difference);
+  average(last.looked_up, taps, frames, looked_up);
+  average(last.excess, taps, frames, pixels.excess[i]);
+  next.excess[i] = pixels.excess[i];
+  pixels.gathered[i] = pixels.looked_up[i] + difference;
+  if (pixels.gathered_variance.empty()) return;
+  average_variance(last.gathered_variance, taps, frames, pixels.gathered_variance[i]);
+  next.gathered_variance[i] = pixels.gathered_variance[i];
+}
+
 void shape(const FilteredPixels& pixels, LightHistory& history) {
   history.positions_ws = pixels.positions_ws;
   history.normals_ws = pixels.geometric_normals_ws;
@@ -108,37 +129,17 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
             depth_tolerance(depth, pixel_width_at_depth(camera, depth), dot(normal_ws, to_viewer)),
             normal_ws);
       }
-      float frames = 1.0f, gathered_frames = 1.0f;
-      float looked_up = pixels.gathered.empty() ? 0.0f : luminance(pixels.looked_up[i]);
+      float frames = 1.0f, most = 1.0f;
       if (is_history(taps)) {
-        float most = by.most_frames;
+        most = by.most_frames;
         if (by.moved != nullptr) {
           most = std::min(most, by.moved->frames_of_surface(pixels.positions_ws[i],
                                                             pixels.geometric_normals_ws[i]));
         }
         frames = averaged_frames(weighted_sum(last.frames, taps), most);
-        if (!pixels.gathered.empty()) {
-          const float kept = kept_by_lookup(weighted_sum(last.looked_up, taps), looked_up);
-          gathered_frames = averaged_frames(kept * weighted_sum(last.gathered_frames, taps), most);
-        }
       }
       next.frames[i] = frames;
-      if (!pixels.gathered.empty()) {
-        vec3 difference = pixels.gathered[i] - pixels.looked_up[i];
-        average(last.differences, taps, gathered_frames, difference);
-        average(last.excess, taps, gathered_frames, pixels.excess[i]);
-        average(last.looked_up, taps, gathered_frames, looked_up);
-        next.differences[i] = difference;
-        next.looked_up[i] = looked_up;
-        next.gathered_frames[i] = gathered_frames;
-        next.excess[i] = pixels.excess[i];
-        pixels.gathered[i] = pixels.looked_up[i] + difference;
-      }
-      if (!pixels.gathered_variance.empty()) {
-        average_variance(last.gathered_variance, taps, gathered_frames,
-                         pixels.gathered_variance[i]);
-        next.gathered_variance[i] = pixels.gathered_variance[i];
-      }
+      if (!pixels.gathered.empty()) average_gathered(last, taps, most, i, pixels, next);
       if (!pixels.emitters.empty()) {
         average(last.emitters, taps, frames, pixels.emitters[i]);
         next.emitters[i] = pixels.emitters[i];

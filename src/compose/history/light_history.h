@@ -19,10 +19,10 @@ struct LightHistory {
   std::vector<float> depths;
   std::vector<glm::vec3> differences;  ///< Gathered less looked-up light, averaged.
   std::vector<glm::vec3> excess, emitters;
-  std::vector<float> looked_up;  ///< Luminance, averaged.
+  std::vector<float> looked_up;  ///< Luminance of the lookups [W/m^2], averaged.
   std::vector<float> gathered_variance, emitter_variance;
   std::vector<float> frames;           ///< Number of frames in a pixel's average of emitters.
-  std::vector<float> gathered_frames;  ///< The same of differences, which may be fewer.
+  std::vector<float> gathered_frames;  ///< The same for gathered light: as many, or fewer.
   LobeHistory coats, clearcoats, highlights;
 };
 

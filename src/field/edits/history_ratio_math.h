@@ -10,22 +10,25 @@
 LAMBENT_BEGIN
 
 // The estimate of one update's rays is raised by at most this factor. Where it is further below the
-// average, the rays hit too little light for a correction to make sense. It is lowered by any
-// factor: a single ray that meets a very bright spot brings a hundred times the average, which
-// holds as much of it as is right, and half of that ray's light after an edit would be a flash.
+// average, the rays hit too little light for a correction to make sense.
 const float kMaxHistoryRatio = 2.0f;
+// It may be lowered much more: a single ray that meets a very bright spot brings hundreds of times
+// the average, which holds the right share of it. If edits restored half of it, there would be a
+// flash. The limit is beyond what single rays bring, and keeps the division by the ratio finite.
+const float kMinHistoryRatio = 1e-5f;
 
 // A probe whose light an edit changes by less than this fraction keeps its old light and its
 // history. It is half of the smallest visible difference.
 const float kChangedFraction = 0.005f;
 
-/// The factor from the last estimate of a texel to the light that the probe holds, at most
-/// kMaxHistoryRatio.
+/// The factor from the last estimate of a texel to the light that the probe holds, between
+/// kMinHistoryRatio and kMaxHistoryRatio.
 LAMBENT_FN vec4 history_ratio_between(vec4 last_irradiance_estimate, vec4 held) {
   vec4 history_ratio = vec4(1.0f);
   for (int c = 0; c < 3; ++c) {
     if (last_irradiance_estimate[c] > kTiniestLight) {
-      history_ratio[c] = min(held[c] / last_irradiance_estimate[c], kMaxHistoryRatio);
+      history_ratio[c] =
+          clamp(held[c] / last_irradiance_estimate[c], kMinHistoryRatio, kMaxHistoryRatio);
     }
   }
   return history_ratio;

@@ -30,15 +30,20 @@ constexpr float kMaxWallSlope = 0.5f;
 // or a door.
 constexpr float kMinEnclosed = 0.75f;
 
-// Offset of places from the grid, into its hull [places]: scenes and grids are made in round
-// numbers, and a place in a wall's own plane would be on either side of it by chance.
-const vec3 kOffPlanes(0.437f, 0.511f, 0.473f);
 // Number of points on emissive surfaces, chosen by their power, that rays leave to either side, and
 // of these rays: some leave a shade, however deep it is. What is halfway along a ray is lit.
 constexpr int kEmitterPoints = 64, kEmitterRays = 4;
 constexpr float kHalfway = 0.5f;
 // Seed of their random numbers.
 constexpr std::uint32_t kEmitterSeed = 5;
+
+/// A ray from a place to a point; of length 0 where both are the same.
+Ray ray_between(const vec3& place_ws, const vec3& point_ws) {
+  const vec3 way = point_ws - place_ws;
+  const float distance = length(way);
+  const vec3 direction = distance > 0.0f ? way / distance : vec3(0, 1, 0);
+  return {place_ws, 0.0f, direction, distance, kRayOfProbe};
+}
 
 }  // namespace
 
@@ -73,17 +78,6 @@ std::size_t Places::count() const {
   return static_cast<std::size_t>(grid_.count.x) * grid_.count.y * grid_.count.z;
 }
 
-vec3 Places::position(const vec3& coords) const {
-  const vec3 cells = (coords + kOffPlanes) * vec3(grid_.count - 1) / vec3(grid_.count);
-  return grid_.origin_ws + grid_.axes * (grid_.spacing * cells);
-}
-
-ivec3 Places::coords(std::size_t place) const {
-  const int i = static_cast<int>(place);
-  return {i % grid_.count.x, i / grid_.count.x % grid_.count.y,
-          i / (grid_.count.x * grid_.count.y)};
-}
-
 std::size_t Places::stride(int axis) const {
   const std::size_t x = grid_.count.x;
   return axis == 0 ? 1 : axis == 1 ? x : x * grid_.count.y;
@@ -115,7 +109,7 @@ void Places::look_around() {
                   [&](std::size_t begin, std::size_t end) {
                     std::vector<Ray> rays;
                     for (std::size_t place = begin; place < end; ++place) {
-                      const vec3 origin = position(coords(place));
+                      const vec3 origin = grid_.position_ws(grid_.coords(place));
                       for (const vec3& direction : directions) {
                         rays.push_back({origin, 0.0f, direction, kInfiniteDistance, kRayOfProbe});
                       }
@@ -132,16 +126,13 @@ void Places::look_around() {
 void Places::look_across() {
   std::vector<Ray> rays(joined_.size());
   for (std::size_t place = 0; place < count(); ++place) {
-    const ivec3 here = coords(place);
+    const ivec3 here = grid_.coords(place);
     for (int axis = 0; axis < kAxes; ++axis) {
       ivec3 there = here;
       ++there[axis];
       // The last places lack neighbours: a ray of length 0 stands in
       there = min(there, grid_.count - 1);
-      const vec3 from = position(here), way = position(there) - from;
-      const float distance = length(way);
-      rays[place * kAxes + axis] = {from, 0.0f, distance > 0.0f ? way / distance : vec3(0, 1, 0),
-                                    distance, kRayOfProbe};
+      rays[place * kAxes + axis] = ray_between(grid_.position_ws(here), grid_.position_ws(there));
     }
   }
   const RayTracer& tracer = tracer_of(world_);
@@ -159,10 +150,7 @@ void Places::mark_around(std::span<const vec3> points_ws, std::uint32_t rays) {
   std::vector<std::size_t> places;
   for (const vec3& point : points_ws) {
     for (const std::size_t place : grid_.places_around(point)) {
-      const vec3 from = position(coords(place)), way = point - from;
-      const float distance = length(way);
-      ways.push_back(
-          {from, 0.0f, distance > 0.0f ? way / distance : vec3(0, 1, 0), distance, kRayOfProbe});
+      ways.push_back(ray_between(grid_.position_ws(grid_.coords(place)), point));
       places.push_back(place);
     }
   }
@@ -235,7 +223,7 @@ void Places::find_region(std::size_t first, std::vector<std::uint8_t>& visited,
   };
   for (std::size_t next = 0; next < region.size(); ++next) {
     const std::size_t place = region[next];
-    const ivec3 here = coords(place);
+    const ivec3 here = grid_.coords(place);
     for (int axis = 0; axis < kAxes; ++axis) {
       if (joined_[place * kAxes + axis] != 0) visit(place + stride(axis));
       if (here[axis] == 0) continue;
@@ -243,6 +231,30 @@ void Places::find_region(std::size_t first, std::vector<std::uint8_t>& visited,
       if (joined_[before * kAxes + axis] != 0) visit(before);
     }
   }
+}
+
+std::vector<std::uint8_t> see_open_places(const World& world,
+                                          std::span<const OpenPlaces> open_space,
+                                          std::span<const vec3> points_ws) {
+  std::vector<Ray> ways;
+  std::vector<std::size_t> points;
+  for (const OpenPlaces& places : open_space) {
+    for (std::size_t i = 0; i < points_ws.size(); ++i) {
+      for (const std::size_t place : places.grid.places_around(points_ws[i])) {
+        if (places.open[place] == 0) continue;
+        ways.push_back(
+            ray_between(places.grid.position_ws(places.grid.coords(place)), points_ws[i]));
+        points.push_back(i);
+      }
+    }
+  }
+  std::vector<std::uint8_t> occluded(ways.size());
+  tracer_of(world).occlusions(ways, occluded);
+  std::vector<std::uint8_t> sees(points_ws.size(), 0);
+  for (std::size_t r = 0; r < ways.size(); ++r) {
+    if (occluded[r] == 0) sees[points[r]] = 1;
+  }
+  return sees;
 }
 
 }  // namespace lambent

@@ -49,8 +49,6 @@ class Places {
   static constexpr std::size_t kRays = 32;
 
   std::size_t count() const;
-  vec3 position(const vec3& coords) const;
-  ivec3 coords(std::size_t place) const;
   std::size_t stride(int axis) const;
   bool is_enclosed(std::size_t place) const;
   bool emits(const Hit& hit) const;
@@ -80,5 +78,10 @@ class Places {
   std::vector<std::uint8_t> open_;      // 1: open
   std::vector<std::uint8_t> joined_;  // 1: sees the next place along an axis; kAxes for each place
 };
+
+/// For each point, 1 where it sees one of the open places around it, so that light can reach it.
+std::vector<std::uint8_t> see_open_places(const World& world,
+                                          std::span<const OpenPlaces> open_space,
+                                          std::span<const vec3> points_ws);
 
 }  // namespace lambent
