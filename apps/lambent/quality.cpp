@@ -97,8 +97,8 @@ Expected<FieldSettings> picture_field_settings(const RenderOptions& options, con
   const glm::vec3 eye(camera.world_from_view[3]);
   const Expected<FieldGrid> grid = fit_grid(*settings, open_bounds(world, eye));
   if (!grid) return settings;
-  if (auto volume = near_volume(world, camera, grid->spacing)) {
-    settings->volumes.push_back(std::move(*volume));
+  for (ProbeVolume& volume : near_volumes(world, camera, *grid)) {
+    settings->volumes.push_back(std::move(volume));
   }
   return settings;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "lambent/error.h"
 #include "lambent/scene.h"
@@ -12,6 +13,7 @@
 namespace lambent {
 
 class World;
+struct FieldGrid;
 
 struct FirstViewSettings {
   /// Full vertical angle of the view [rad], 0 to pi; none: 45 degrees for objects, 60 for rooms.
@@ -72,12 +74,13 @@ std::optional<Scene> take_sky_dome(Scene& scene);
 /// sky beside them. Traces a ray for each texel, up to 8.4 million. `eye_ws` [m].
 Environment sky_of_dome(const Scene& dome, const glm::vec3& eye_ws);
 
-/// A box of about 4,096 probes around the surfaces that surround a camera, for fields whose grid
-/// has hardly a cell there, since the scene is far larger than the room or the yard in which the
-/// camera stands; or around the nearer part of what it sees from the open, a house in its grounds.
-/// None where the grid is fine enough, and where the camera sees far into the open. `spacing`: of
-/// the grid's probes along each axis [m]. Traces some 1,000 rays.
-std::optional<ProbeVolume> near_volume(const World& world, const Camera& camera,
-                                       const glm::vec3& spacing);
+/// Volumes of about 4,096 probes each for fields whose grid has hardly a cell around a camera,
+/// since the scene is far larger than the room or the yard in which it stands: one around the
+/// surfaces that surround it, or around the nearer part of what it sees from the open, a house in
+/// its grounds; and larger ones around that, until the spacing of each is at most four times that
+/// of the next. Finest first; none where the grid is fine enough, and where the camera sees far
+/// into the open. `grid`: that of the field. Traces some 1,000 rays.
+std::vector<ProbeVolume> near_volumes(const World& world, const Camera& camera,
+                                      const FieldGrid& grid);
 
 }  // namespace lambent

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finer probes around a camera, for scenes that are far larger than what it sees.
 #include <algorithm>
+#include <cmath>
 #include <glm/glm.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "first_picture/seen.h"
@@ -34,6 +36,9 @@ constexpr float kNearbyMargin = 0.35f;
 constexpr float kNearbyCells = 2.0f;
 // A grid with fewer cells than this along each side of the box cannot show how light varies there.
 constexpr float kMinCells = 4.0f;
+// Spacings of volumes that enclose each other differ by at most this factor: what stands beside the
+// box, as the rooms of a house behind the camera's, is far smaller than a cell of the whole grid.
+constexpr float kMaxStep = 4.0f;
 
 /// Places of surfaces that the camera sees.
 std::vector<glm::vec3> places_seen(const World& world, const Camera& camera) {
@@ -80,10 +85,8 @@ Bounds box_around(const std::vector<glm::vec3>& places, float left_out) {
   return box;
 }
 
-}  // namespace
-
-std::optional<ProbeVolume> near_volume(const World& world, const Camera& camera,
-                                       const glm::vec3& spacing) {
+/// The box around a camera that needs finer probes than those of a grid; none where it has enough.
+std::optional<Bounds> near_box(const World& world, const Camera& camera, const glm::vec3& spacing) {
   if (camera.orthographic) return std::nullopt;
   const glm::vec3 eye(camera.world_from_view[3]);
   const std::vector<glm::vec3> seen = places_seen(world, camera);
@@ -102,14 +105,49 @@ std::optional<ProbeVolume> near_volume(const World& world, const Camera& camera,
   if (glm::any(glm::greaterThanEqual(size, most_cells * spacing))) return std::nullopt;
   if (in_the_open) box = {box.min - kNearbyMargin * size, box.max + kNearbyMargin * size};
 
+  return box;
+}
+
+/// A volume of about 4,096 probes in a box; none where it has no size.
+std::optional<ProbeVolume> volume_in(const Bounds& box, const char* name) {
   const Expected<FieldGrid> grid = fit_grid({}, box);
   if (!grid) return std::nullopt;
   ProbeVolume volume;
-  volume.name = "around the camera";
+  volume.name = name;
   volume.probe_count = grid->count;
   volume.size = grid->spacing * glm::vec3(grid->count - 1);
   volume.centre = grid->origin + 0.5f * volume.size;
   return volume;
+}
+
+float longest(const glm::vec3& size) {
+  return std::max({size.x, size.y, size.z});
+}
+
+}  // namespace
+
+std::vector<ProbeVolume> near_volumes(const World& world, const Camera& camera,
+                                      const FieldGrid& grid) {
+  const std::optional<Bounds> box = near_box(world, camera, grid.spacing);
+  if (!box) return {};
+  const std::optional<ProbeVolume> nearest = volume_in(*box, "around the camera");
+  if (!nearest) return {};
+  std::vector<ProbeVolume> volumes = {*nearest};
+
+  // Between its spacing and that of the grid
+  const glm::vec3 cells(nearest->probe_count - 1);
+  const float ratio = longest(grid.spacing) / longest(nearest->size / cells);
+  const float steps = std::ceil(std::log(ratio) / std::log(kMaxStep));
+  const Bounds whole{grid.origin, grid.origin + grid.spacing * glm::vec3(grid.count - 1)};
+  for (float step = 1.0f; step < steps; ++step) {
+    const glm::vec3 half = 0.5f * nearest->size * std::pow(ratio, step / steps);
+    const Bounds around{glm::max(nearest->centre - half, glm::min(box->min, whole.min)),
+                        glm::min(nearest->centre + half, glm::max(box->max, whole.max))};
+    if (auto volume = volume_in(around, "beside what surrounds the camera")) {
+      volumes.push_back(std::move(*volume));
+    }
+  }
+  return volumes;
 }
 
 }  // namespace lambent
