@@ -65,12 +65,13 @@ endfunction()
 
 # Sources of the library whose loops should become vector instructions and whose square roots need not set errno, each
 # compiled with the OPTIONS given after that word, too. They read no precompiled header: it is made without these flags,
-# and compilers refuse it. Sanitizers have no use for vectors.
+# and compilers refuse it. Sanitizers have no use for vectors; a build for them that optimises nothing else would wait
+# for these.
 function(lambent_vector_sources)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "" "OPTIONS")
   set(optimization -O3)
   if(LAMBENT_SANITIZE)
-    set(optimization)
+    set(optimization -O1)
   endif()
   set_source_files_properties(${arg_UNPARSED_ARGUMENTS} TARGET_DIRECTORY lambent PROPERTIES
     SKIP_PRECOMPILE_HEADERS ON

@@ -2,6 +2,8 @@
 #include "field/probes/tile_fit.h"
 
 #include <Eigen/Dense>
+#include <map>
+#include <mutex>
 
 #include "field/probes/tile.h"
 #include "shared/sampling.h"
@@ -28,9 +30,7 @@ Eigen::Matrix<double, kHarmonics, 1> harmonics(const vec3& n) {
   return values;
 }
 
-}  // namespace
-
-std::vector<float> tile_fit_matrix(int edge) {
+std::vector<float> compute_fit(int edge) {
   const int texels = edge * edge;
 
   // Integrate the products of the fetch weights with themselves and with the harmonics
@@ -71,6 +71,18 @@ std::vector<float> tile_fit_matrix(int edge) {
                                   scaled.completeOrthogonalDecomposition().pseudoInverse();
   const Eigen::MatrixXf rounded = fit.cast<float>();
   return {rounded.data(), rounded.data() + rounded.size()};
+}
+
+}  // namespace
+
+std::vector<float> tile_fit_matrix(int edge) {
+  // Fields are made often, as from streams, and in few sizes
+  static std::mutex mutex;
+  static std::map<int, std::vector<float>> computed;
+  const std::lock_guard lock(mutex);
+  std::vector<float>& fit = computed[edge];
+  if (fit.empty()) fit = compute_fit(edge);
+  return fit;
 }
 
 }  // namespace lambent

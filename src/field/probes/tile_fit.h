@@ -24,7 +24,8 @@
 namespace lambent {
 
 /// The texels x texels matrix that turns irradiance at the centres of an interior of `edge` x
-/// `edge` texels into the values to store, column after column.
+/// `edge` texels into the values to store, column after column. Each size is computed once; threads
+/// may call it at the same time.
 std::vector<float> tile_fit_matrix(int edge);
 
 }  // namespace lambent
