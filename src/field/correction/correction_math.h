@@ -187,16 +187,17 @@ LAMBENT_FN CorrectionCell decode_correction(uint word) {
 const float kLeastCorrectionSamples = 1.0f / 64.0f;
 
 // New samples of a cell are summed as integers, so that their order does not matter. This many
-// steps are 1; there is room for 8,192 of the brightest samples in an update.
-const float kCorrectionSumSteps = 16384.0f;
+// steps are 1; there is room for 2,048 of the brightest samples of a cell in an update.
+const float kCorrectionSumSteps = 8192.0f;
 
 // The weight of a sample is in proportion to the irradiance that the lookup finds, since the ratio
 // of means is less noisy than the mean of ratios, and bright places matter more. It does not grow
 // beyond this many times the mean of all lookups.
 const float kBrightestLookup = 8.0f;
 
-// Gathered irradiance is clamped to this many times the mean. Larger values are fireflies.
-const float kBrightestGather = 32.0f;
+// Gathered irradiance is clamped to this many times the mean. Larger values are fireflies; within a
+// lampshade irradiance is hundreds of times the mean, and much of a room's light comes from there.
+const float kBrightestGather = 256.0f;
 
 // A sample counts as one sample where the mean variance of gathers, divided by the square of the
 // lookup's irradiance, is this, and as a smaller number where that is larger. kSmoothPrior then
