@@ -104,7 +104,6 @@ std::optional<Bounds> near_box(const World& world, const Camera& camera, const g
   const float most_cells = in_the_open ? kNearbyCells : kMinCells;
   if (glm::any(glm::greaterThanEqual(size, most_cells * spacing))) return std::nullopt;
   if (in_the_open) box = {box.min - kNearbyMargin * size, box.max + kNearbyMargin * size};
-
   return box;
 }
 
@@ -130,19 +129,19 @@ std::vector<ProbeVolume> near_volumes(const World& world, const Camera& camera,
                                       const FieldGrid& grid) {
   const std::optional<Bounds> box = near_box(world, camera, grid.spacing);
   if (!box) return {};
-  const std::optional<ProbeVolume> nearest = volume_in(*box, "around the camera");
-  if (!nearest) return {};
-  std::vector<ProbeVolume> volumes = {*nearest};
+  const std::optional<ProbeVolume> finest = volume_in(*box, "around the camera");
+  if (!finest) return {};
+  std::vector<ProbeVolume> volumes = {*finest};
 
   // Between its spacing and that of the grid
-  const glm::vec3 cells(nearest->probe_count - 1);
-  const float ratio = longest(grid.spacing) / longest(nearest->size / cells);
+  const glm::vec3 cells(finest->probe_count - 1);
+  const float ratio = longest(grid.spacing) / longest(finest->size / cells);
   const float steps = std::ceil(std::log(ratio) / std::log(kMaxStep));
   const Bounds whole{grid.origin, grid.origin + grid.spacing * glm::vec3(grid.count - 1)};
   for (float step = 1.0f; step < steps; ++step) {
-    const glm::vec3 half = 0.5f * nearest->size * std::pow(ratio, step / steps);
-    const Bounds around{glm::max(nearest->centre - half, glm::min(box->min, whole.min)),
-                        glm::min(nearest->centre + half, glm::max(box->max, whole.max))};
+    const glm::vec3 half = 0.5f * finest->size * std::pow(ratio, step / steps);
+    const Bounds around{glm::max(finest->centre - half, glm::min(box->min, whole.min)),
+                        glm::min(finest->centre + half, glm::max(box->max, whole.max))};
     if (auto volume = volume_in(around, "beside what surrounds the camera")) {
       volumes.push_back(std::move(*volume));
     }
