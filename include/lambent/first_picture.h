@@ -79,7 +79,7 @@ Environment sky_of_dome(const Scene& dome, const glm::vec3& eye_ws);
 /// surfaces that surround it, or around the nearer part of what it sees from the open, a house in
 /// its grounds; and larger ones around that, until the spacing of each is at most four times that
 /// of the next. Finest first; none where the grid is fine enough, and where the camera sees far
-/// into the open. `grid`: that of the field. Traces some 1,000 rays.
+/// into the open. `grid`: that of the field, as fit_grid() makes it. Traces some 1,000 rays.
 std::vector<ProbeVolume> near_volumes(const World& world, const Camera& camera,
                                       const FieldGrid& grid);
 

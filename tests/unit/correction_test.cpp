@@ -118,6 +118,21 @@ Spread spread_of(const CorrectionTable& table) {
   return {mean, std::sqrt(squares / count - mean * mean)};
 }
 
+TEST(Corrections, LearnFromGathersThatMeetALamp) {
+  // One gather in 50 brings 100 times what is looked up, and the others nothing
+  std::vector<CorrectionSample> samples;
+  for (int i = 0; i < 1000; ++i) {
+    const float gathered = i % 50 == 0 ? 200.0f : 0.0f;
+    samples.push_back({{0.05f, 0.01f, 0.05f}, kUp, 0, gathered, 0.0f, 2.0f, 0.5f});
+  }
+  EXPECT_NEAR(read(taught(samples), {0.05f, 0.01f, 0.05f}), 2.0f, 0.02f);
+}
+
+TEST(Corrections, SumTheBrightestSamplesOfACellWithoutOverflow) {
+  constexpr std::uint64_t kSamples = 2000;
+  EXPECT_LT(kSamples * correction_sum(1e9f, 1.0f, 1.0f).gathered, std::uint64_t{1} << 32);
+}
+
 TEST(Corrections, AreSmootherWhereGathersAreNoisy) {
   // Of four samples, three find nothing and one finds four times the light: a variance of 3 L^2
   std::vector<CorrectionSample> samples = samples_on_floor(20000, [](float) { return 1.0f; });

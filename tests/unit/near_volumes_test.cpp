@@ -40,7 +40,7 @@ float spacing_of(const ProbeVolume& volume) {
 
 const Camera kInside = look_at({0, 1.5f, 2}, {0, 1, -3}, 1.0f);
 
-TEST(NearVolumes, FillsTheRoomOfACameraWhereTheGridIsFarCoarser) {
+TEST(NearVolumes, FillTheRoomOfACameraWhereTheGridIsFarCoarser) {
   const Scene scene = room(true);
   const World world(scene);
   const auto volumes = near_volumes(world, kInside, grid_of(25.0f));
@@ -55,7 +55,7 @@ TEST(NearVolumes, FillsTheRoomOfACameraWhereTheGridIsFarCoarser) {
   }
 }
 
-TEST(NearVolumes, StandsWithinOthersWhoseSpacingGrowsInSteps) {
+TEST(NearVolumes, StandWithinOthersWhoseSpacingGrowsInSteps) {
   const Scene scene = room(true);
   const World world(scene);
   const FieldGrid grid = grid_of(25.0f);
@@ -77,7 +77,7 @@ TEST(NearVolumes, StandsWithinOthersWhoseSpacingGrowsInSteps) {
   }
 }
 
-TEST(NearVolumes, HoldsAHouseThatACameraSeesInWideGrounds) {
+TEST(NearVolumes, HoldAHouseThatACameraSeesInWideGrounds) {
   const glm::vec3 low(-4, 0, -3), high(4, 5, 3);
   const Scene scene =
       scene_of({box_mesh(low, high), box_mesh({-200, -1, -200}, {200, -0.01f, 200})});
@@ -94,13 +94,13 @@ TEST(NearVolumes, HoldsAHouseThatACameraSeesInWideGrounds) {
   EXPECT_TRUE(near_volumes(world, camera, grid_of(5.0f)).empty());
 }
 
-TEST(NearVolumes, IsNotThereWhereTheGridHasCellsEnough) {
+TEST(NearVolumes, AreNotThereWhereTheGridHasCellsEnough) {
   const Scene scene = room(false);
   const World world(scene);
   EXPECT_TRUE(near_volumes(world, kInside, grid_of(0.4f)).empty());
 }
 
-TEST(NearVolumes, IsNotThereInTheOpen) {
+TEST(NearVolumes, AreNotThereInTheOpen) {
   const Scene scene = room(true);
   const World world(scene);
   const Camera above = look_at({0, 150, 0}, {200, 160, 0}, 1.0f);

@@ -187,7 +187,7 @@ LAMBENT_FN CorrectionCell decode_correction(uint word) {
 const float kLeastCorrectionSamples = 1.0f / 64.0f;
 
 // New samples of a cell are summed as integers, so that their order does not matter. This many
-// steps are 1; there is room for 2,048 of the brightest samples of a cell in an update.
+// steps are 1; there is room for 2,000 of the brightest samples of a cell in an update.
 const float kCorrectionSumSteps = 8192.0f;
 
 // The weight of a sample is in proportion to the irradiance that the lookup finds, since the ratio
