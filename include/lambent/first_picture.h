@@ -74,8 +74,8 @@ std::optional<Scene> take_sky_dome(Scene& scene);
 /// sky beside them. Traces a ray for each texel, up to 8.4 million. `eye_ws` [m].
 Environment sky_of_dome(const Scene& dome, const glm::vec3& eye_ws);
 
-/// Volumes of about 4,096 probes each for fields whose grid has hardly a cell around a camera,
-/// since the scene is far larger than the room or the yard in which it stands: one around the
+/// Volumes of about 4,096 probes each for fields whose grid has few cells around a camera, since
+/// the scene is far larger than the room or the yard in which it stands: one around the
 /// surfaces that surround it, or around the nearer part of what it sees from the open, a house in
 /// its grounds; and larger ones around that, until the spacing of each is at most four times that
 /// of the next. Finest first; none where the grid is fine enough, and where the camera sees far

@@ -34,8 +34,11 @@ constexpr float kNearbyOutlierShare = 0.02f;
 constexpr float kNearbyMargin = 0.35f;
 // It must be smaller than this along each side, before it is enlarged [cells].
 constexpr float kNearbyCells = 2.0f;
-// A grid with fewer cells than this along each side of the box cannot show how light varies there.
+// A grid with fewer cells than this along any side of the box around a camera indoors cannot show
+// how light varies there.
 constexpr float kMinCells = 4.0f;
+// Finer probes are worth their rays where their spacing is smaller by at least this factor.
+constexpr float kMinRatio = 2.0f;
 // Spacings of volumes that enclose each other differ by at most this factor: what stands beside the
 // box, as the rooms of a house behind the camera's, is far smaller than a cell of the whole grid.
 constexpr float kMaxStep = 4.0f;
@@ -101,8 +104,9 @@ std::optional<Bounds> near_box(const World& world, const Camera& camera, const g
   Bounds box = box_around(places, in_the_open ? kNearbyOutlierShare : kOutlierShare);
   box.add(eye);
   const glm::vec3 size = box.max - box.min;
-  const float most_cells = in_the_open ? kNearbyCells : kMinCells;
-  if (glm::any(glm::greaterThanEqual(size, most_cells * spacing))) return std::nullopt;
+  const bool is_coarse = in_the_open ? glm::all(glm::lessThan(size, kNearbyCells * spacing))
+                                     : glm::any(glm::lessThan(size, kMinCells * spacing));
+  if (!is_coarse) return std::nullopt;
   if (in_the_open) box = {box.min - kNearbyMargin * size, box.max + kNearbyMargin * size};
   return box;
 }
@@ -131,11 +135,12 @@ std::vector<ProbeVolume> near_volumes(const World& world, const Camera& camera,
   if (!box) return {};
   const std::optional<ProbeVolume> finest = volume_in(*box, "around the camera");
   if (!finest) return {};
-  std::vector<ProbeVolume> volumes = {*finest};
-
-  // Between its spacing and that of the grid
   const glm::vec3 cells(finest->probe_count - 1);
   const float ratio = longest(grid.spacing) / longest(finest->size / cells);
+  if (ratio < kMinRatio) return {};
+
+  // Between its spacing and that of the grid
+  std::vector<ProbeVolume> volumes = {*finest};
   const float steps = std::ceil(std::log(ratio) / std::log(kMaxStep));
   const Bounds whole{grid.origin, grid.origin + grid.spacing * glm::vec3(grid.count - 1)};
   for (float step = 1.0f; step < steps; ++step) {

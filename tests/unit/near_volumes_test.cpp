@@ -100,6 +100,24 @@ TEST(NearVolumes, AreNotThereWhereTheGridHasCellsEnough) {
   EXPECT_TRUE(near_volumes(world, kInside, grid_of(0.4f)).empty());
 }
 
+TEST(NearVolumes, FillALongRoomThatIsAsHighAsFewCells) {
+  const Scene scene = room(true);
+  const World world(scene);
+  // Six cells of the grid are as long as the room, but not three as high
+  const auto volumes = near_volumes(world, kInside, grid_of(1.0f));
+  ASSERT_FALSE(volumes.empty());
+  EXPECT_LT(spacing_of(volumes.front()), 0.35f);
+}
+
+TEST(NearVolumes, AreNotThereWhereTheyWouldHardlyBeFiner) {
+  // The room is as high as 3.75 cells of 0.32 m; 4,096 probes in it are some 0.19 m apart
+  const Scene scene = scene_of({box_mesh({-2, 0, -3}, {2, 1.2f, 3})});
+  const World world(scene);
+  const Camera camera = look_at({0, 0.6f, 2}, {0, 0.6f, -3}, 1.0f);
+  EXPECT_FALSE(near_volumes(world, camera, grid_of(0.64f)).empty());
+  EXPECT_TRUE(near_volumes(world, camera, grid_of(0.32f)).empty());
+}
+
 TEST(NearVolumes, AreNotThereInTheOpen) {
   const Scene scene = room(true);
   const World world(scene);
