@@ -51,8 +51,8 @@ std::string_view name_of(FirstLight light);
 
 /// Chooses the light for a camera's view: the scene's, where it has lights or a sky or where its
 /// emissive surfaces light what the camera sees; otherwise one that suits the camera's
-/// surroundings. Outdoors, where the camera sees past the scene, suns without a sky get one. Traces
-/// some 10,000 rays.
+/// surroundings. Suns without a sky get one outdoors, where the camera sees past the scene, and in
+/// rooms that it would shine into. Traces some 10,000 rays.
 FirstLight choose_first_light(const World& world, const Camera& camera);
 
 /// Replaces the scene's lights and environment by those of `light`, set up for the camera's view;
