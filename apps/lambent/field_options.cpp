@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -26,9 +27,11 @@ constexpr double kSettledChange = 0.002;
 constexpr int kMaxSettleUpdates = 256;
 
 // Light counts as calm when its standard error is below this share of it: noise around probes is
-// then hard to see on a plain wall. Updates beyond kMaxCalmUpdates improve it by less than they
-// cost.
+// then hard to see on a plain wall. That is for kCalmProbes, as many as the grid of a scene has;
+// what a pixel gathers averages as many more as there are, so that the error may grow by the square
+// root of their number. Updates beyond kMaxCalmUpdates improve it by less than they cost.
 constexpr double kCalmError = 0.025;
+constexpr double kCalmProbes = 4096.0;
 constexpr int kMaxCalmUpdates = 80;
 // Once all bounces have reached all probes, an update has this share of a full one's rays, which go
 // to the noisiest probes: a bathroom lit by a patch of sun reaches 3 % of error in 4.4 s, with full
@@ -280,7 +283,8 @@ FieldProgress update_field(const World& world, int updates, const UpdateRequest&
 FieldProgress calm_field(const World& world, int least, const UpdateRequest& request,
                          IrradianceField& field, const ProgressFn& progress,
                          nlohmann::ordered_json& stats) {
-  const UpdateLimits limits{least, std::max(least, kMaxCalmUpdates), 0.0, kCalmError, kCalmRays};
+  const double calm_error = kCalmError * std::sqrt(std::max(field.probes() / kCalmProbes, 1.0));
+  const UpdateLimits limits{least, std::max(least, kMaxCalmUpdates), 0.0, calm_error, kCalmRays};
   return run_updates(world, 0, limits, request, field, progress, {}, stats);
 }
 

@@ -77,7 +77,7 @@ Environment sky_of_dome(const Scene& dome, const glm::vec3& eye_ws);
 /// Volumes of about 4,096 probes each for fields whose grid has few cells around a camera, since
 /// the scene is far larger than the room or the yard in which it stands: one around the
 /// surfaces that surround it, or around the nearer part of what it sees from the open, a house in
-/// its grounds; and larger ones around that, until the spacing of each is at most four times that
+/// its grounds; and larger ones around that, until the spacing of each is at most 2.5 times that
 /// of the next. Finest first; none where the grid is fine enough, and where the camera sees far
 /// into the open. `grid`: that of the field, as fit_grid() makes it. Traces some 1,000 rays.
 std::vector<ProbeVolume> near_volumes(const World& world, const Camera& camera,

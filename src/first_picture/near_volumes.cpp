@@ -40,8 +40,9 @@ constexpr float kMinCells = 4.0f;
 // Finer probes are worth their rays where their spacing is smaller by at least this factor.
 constexpr float kMinRatio = 2.0f;
 // Spacings of volumes that enclose each other differ by at most this factor: what stands beside the
-// box, as the rooms of a house behind the camera's, is far smaller than a cell of the whole grid.
-constexpr float kMaxStep = 4.0f;
+// box, as the rooms of a house behind the camera's or around its yard, is far smaller than a cell
+// of the whole grid.
+constexpr float kMaxStep = 2.5f;
 
 /// Places of surfaces that the camera sees.
 std::vector<glm::vec3> places_seen(const World& world, const Camera& camera) {

@@ -65,7 +65,7 @@ TEST(NearVolumes, StandWithinOthersWhoseSpacingGrowsInSteps) {
     const bool last = i + 1 == volumes.size();
     const float coarser = last ? grid.spacing.x : spacing_of(volumes[i + 1]);
     EXPECT_GT(coarser, spacing_of(volumes[i]));
-    EXPECT_LT(coarser, 5.0f * spacing_of(volumes[i])) << i;
+    EXPECT_LT(coarser, 4.0f * spacing_of(volumes[i])) << i;
     if (last) break;
     // What stands beside the room is in the next one
     const glm::vec3 low = volumes[i].centre - 0.5f * volumes[i].size;
