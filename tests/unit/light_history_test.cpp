@@ -121,6 +121,28 @@ TEST_F(LightHistoryTest, ForgetsDifferencesFromLookupsThatHaveChanged) {
   EXPECT_LT(error_of(now, truth_from(camera()), "irradiance"), 0.2);
 }
 
+TEST_F(LightHistoryTest, SpreadsRareBrightRaysOverFrames) {
+  // A lamp a centimetre above the floor, whose bright spot few gathering rays meet
+  for (Material& material : stage.scene.materials) material.emission = glm::vec3(0.0f);
+  Light& lamp = stage.scene.lights.emplace_back();
+  lamp.type = Light::Type::point;
+  lamp.position_ws = {0.2f, 0.01f, 0.3f};
+  lamp.intensity = glm::vec3(1.0f);
+  ASSERT_TRUE(stage.world.update());
+  for (int i = 0; i < 16; ++i) stage.field->update(stage.world);
+  Renderer renderer(stage.world, {.field = &*stage.field});
+  double before = 0.0, greatest = 0.0;
+  for (int i = 0; i < 12; ++i) {
+    const RenderedFrame frame = renderer.render(camera(), averaging(10)).value();
+    double mean = 0.0;
+    for (const float value : frame.image.find("irradiance")->pixels) mean += value;
+    // The first frame has no average of other light yet, either
+    if (i > 1) greatest = std::max(greatest, std::abs(mean / before - 1.0));
+    before = mean;
+  }
+  EXPECT_LT(greatest, 0.1);
+}
+
 TEST_F(LightHistoryTest, RefusesPicturesInPartsOrOfManySamples) {
   const auto refused = [&](auto change) {
     FrameSettings settings = averaging(4);
@@ -178,6 +200,14 @@ TEST(LightHistoryMath, KeepsAveragesWhileLookupsStayTheSame) {
   EXPECT_EQ(kept_by_lookup(0.0f, 0.0f), 1.0f);
   EXPECT_EQ(kept_by_lookup(0.0f, 1.0f), 0.0f);
   EXPECT_NEAR(kept_by_lookup(1.0f, 0.725f), 0.5f, 1e-5f);
+}
+
+TEST(LightHistoryMath, AveragesExcessOverManyFrames) {
+  vec3 average(0.0f);
+  for (int i = 0; i < 400; ++i) average = averaged_excess(average, vec3(3.0f));
+  EXPECT_NEAR(average.x, 3.0f, 1e-3f);
+  // A single ray is a small part of what it would be in its frame alone
+  EXPECT_LT(averaged_excess(vec3(0.0f), vec3(3.0f)).x, 0.1f);
 }
 
 TEST(LightHistoryMath, AveragesVarianceAsThatOfAMean) {

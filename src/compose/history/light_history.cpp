@@ -33,8 +33,8 @@ void average_gathered(const LightHistory& last, const HistoryTaps& taps, float m
   }
   average(last.differences, taps, frames, difference);
   average(last.looked_up, taps, frames, looked_up);
-  average(last.excess, taps, frames, pixels.excess[i]);
-  next.excess[i] = pixels.excess[i];
+  next.excess[i] = pixels.excess[i] =
+      averaged_excess(weighted_sum(last.excess, taps), pixels.excess[i]);
   pixels.gathered[i] = pixels.looked_up[i] + difference;
   if (pixels.gathered_variance.empty()) return;
   average_variance(last.gathered_variance, taps, frames, pixels.gathered_variance[i]);
