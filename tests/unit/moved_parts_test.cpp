@@ -135,5 +135,39 @@ TEST(MovedParts, LeaveAveragesElsewhereAsTheyAre) {
   }
 }
 
+TEST(MovedParts, ShowWhatTheirRaysBringThoughTheFieldLags) {
+  // A field that is nearly dark, so that rays bring more than its lookups by far
+  Scene scene = scenes::make("cornell").value();
+  const std::vector<Material> materials = scene.materials;
+  for (Material& material : scene.materials) material.emission *= 1e-3f;
+  World world(scene);
+  FieldSettings of_field;
+  of_field.probe_count = glm::ivec3(4);
+  of_field.rays_per_probe = 64;
+  IrradianceField field = *IrradianceField::make(of_field, open_bounds(world));
+  field.update(world);
+  scene.materials = materials;
+  ASSERT_TRUE(world.update());
+  FrameSettings settings = quality_settings(Quality::interactive);
+  settings.width = 64;
+  settings.height = 48;
+  Renderer renderer(world, {.field = &field});
+  const auto mean_light = [&](int frames) {
+    settings.averaged_frames = frames;
+    const RenderedFrame frame = renderer.render(scene.cameras.at(0), settings).value();
+    double sum = 0.0;
+    for (const float value : frame.image.find("irradiance")->pixels) sum += value;
+    return sum;
+  };
+  const double whole = mean_light(1), still = mean_light(16);
+  scene.instances.back().world_from_object[3].x += 0.01f;
+  ASSERT_TRUE(world.update());
+  // The block's light is there at once, that of the walls as slowly as before
+  const double moved = mean_light(16);
+  EXPECT_LT(still, 0.1 * whole);
+  EXPECT_GT(moved, still + 0.05 * whole);
+  EXPECT_LT(moved, 0.5 * whole);
+}
+
 }  // namespace
 }  // namespace lambent::moved_parts_test

@@ -21,9 +21,10 @@ void average_variance(const std::vector<float>& before, const HistoryTaps& taps,
 }
 
 /// Averages what a pixel gathers over at most `most` frames, over fewer where its lookup has
-/// changed.
-void average_gathered(const LightHistory& last, const HistoryTaps& taps, float most, std::size_t i,
-                      FilteredPixels& pixels, LightHistory& next) {
+/// changed. Excess of surfaces that move is left as it is: where the field lags behind them, most
+/// rays bring more than their lookups.
+void average_gathered(const LightHistory& last, const HistoryTaps& taps, float most, bool moves,
+                      std::size_t i, FilteredPixels& pixels, LightHistory& next) {
   vec3& difference = next.differences[i] = pixels.gathered[i] - pixels.looked_up[i];
   float& looked_up = next.looked_up[i] = luminance(pixels.looked_up[i]);
   float& frames = next.gathered_frames[i] = 1.0f;
@@ -33,8 +34,10 @@ void average_gathered(const LightHistory& last, const HistoryTaps& taps, float m
   }
   average(last.differences, taps, frames, difference);
   average(last.looked_up, taps, frames, looked_up);
-  next.excess[i] = pixels.excess[i] =
-      averaged_excess(weighted_sum(last.excess, taps), pixels.excess[i]);
+  if (!moves) {
+    pixels.excess[i] = averaged_excess(weighted_sum(last.excess, taps), pixels.excess[i]);
+  }
+  next.excess[i] = pixels.excess[i];
   pixels.gathered[i] = pixels.looked_up[i] + difference;
   if (pixels.gathered_variance.empty()) return;
   average_variance(last.gathered_variance, taps, frames, pixels.gathered_variance[i]);
@@ -129,17 +132,17 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
             depth_tolerance(depth, pixel_width_at_depth(camera, depth), dot(normal_ws, to_viewer)),
             normal_ws);
       }
-      float frames = 1.0f, most = 1.0f;
-      if (is_history(taps)) {
-        most = by.most_frames;
-        if (by.moved != nullptr) {
-          most = std::min(most, by.moved->frames_of_surface(pixels.positions_ws[i],
-                                                            pixels.geometric_normals_ws[i]));
-        }
-        frames = averaged_frames(weighted_sum(last.frames, taps), most);
+      float most = by.most_frames;
+      if (by.moved != nullptr && pixels.depths[i] > 0.0f) {
+        most = std::min(most, by.moved->frames_of_surface(pixels.positions_ws[i],
+                                                          pixels.geometric_normals_ws[i]));
       }
+      float frames = 1.0f;
+      if (is_history(taps)) frames = averaged_frames(weighted_sum(last.frames, taps), most);
       next.frames[i] = frames;
-      if (!pixels.gathered.empty()) average_gathered(last, taps, most, i, pixels, next);
+      if (!pixels.gathered.empty()) {
+        average_gathered(last, taps, most, most <= 1.0f, i, pixels, next);
+      }
       if (!pixels.emitters.empty()) {
         average(last.emitters, taps, frames, pixels.emitters[i]);
         next.emitters[i] = pixels.emitters[i];
