@@ -26,9 +26,11 @@ function(lambent_compile_options target)
   endif()
 endfunction()
 
-# For what spends its time in the library, or waits for others: builds for tests compile it in two thirds of the time.
-# Sanitizers have levels of their own.
-set(LAMBENT_OPTIMISED_LESS $<$<AND:$<CONFIG:RelWithDebInfo>,$<NOT:$<BOOL:${LAMBENT_SANITIZE}>>>:-O1>)
+# For what spends its time in the library, or waits for others
+set(LAMBENT_OPTIMISED_LESS)
+if(LAMBENT_TEST_BUILD)
+  set(LAMBENT_OPTIMISED_LESS -O1)
+endif()
 
 # Sources of a folder become one translation unit, or several where they are more than this. More would save little
 # parsing, and leave cores without work at the end of a build.

@@ -27,11 +27,12 @@ constexpr double kSettledChange = 0.002;
 constexpr int kMaxSettleUpdates = 256;
 
 // Light counts as calm when its standard error is below this share of it: noise around probes is
-// then hard to see on a plain wall. That is for kCalmProbes, as many as the grid of a scene has;
-// what a pixel gathers averages as many more as there are, so that the error may grow by the square
-// root of their number. Updates beyond kMaxCalmUpdates improve it by less than they cost.
+// then hard to see on a plain wall. That is for as many probes as a scene's grid has by default.
+// What gathering rays meet is lit by more of them where there are more, and averages their errors,
+// so that these may be larger by the square root of their number, up to kMaxCalmError, which is
+// below what users are told of. Updates beyond kMaxCalmUpdates improve it by less than they cost.
 constexpr double kCalmError = 0.025;
-constexpr double kCalmProbes = 4096.0;
+constexpr double kMaxCalmError = 0.04;
 constexpr int kMaxCalmUpdates = 80;
 // Once all bounces have reached all probes, an update has this share of a full one's rays, which go
 // to the noisiest probes: a bathroom lit by a patch of sun reaches 3 % of error in 4.4 s, with full
@@ -283,7 +284,8 @@ FieldProgress update_field(const World& world, int updates, const UpdateRequest&
 FieldProgress calm_field(const World& world, int least, const UpdateRequest& request,
                          IrradianceField& field, const ProgressFn& progress,
                          nlohmann::ordered_json& stats) {
-  const double calm_error = kCalmError * std::sqrt(std::max(field.probes() / kCalmProbes, 1.0));
+  const double ratio = static_cast<double>(field.probes()) / FieldSettings{}.probe_budget;
+  const double calm_error = std::min(kCalmError * std::sqrt(std::max(ratio, 1.0)), kMaxCalmError);
   const UpdateLimits limits{least, std::max(least, kMaxCalmUpdates), 0.0, calm_error, kCalmRays};
   return run_updates(world, 0, limits, request, field, progress, {}, stats);
 }

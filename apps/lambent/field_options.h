@@ -60,9 +60,10 @@ FieldProgress update_field(const World& world, int updates, const UpdateRequest&
                            IrradianceField& field, const ProgressFn& progress,
                            nlohmann::ordered_json& stats);
 
-/// Updates the field at least `least` times, until the standard error of its light is below 2.5 %,
-/// at most 80 times: otherwise noise from small bright patches is visible in mirrors and on walls.
-/// Updates after the first `least` trace half as many rays, from the noisiest probes.
+/// Updates the field at least `least` times, until the standard error of its light is below 2.5 %
+/// (up to 4 % with more probes than by default), at most 80 times: otherwise noise from small
+/// bright patches is visible in mirrors and on walls. Updates after the first `least` trace half as
+/// many rays, from the noisiest probes.
 FieldProgress calm_field(const World& world, int least, const UpdateRequest& request,
                          IrradianceField& field, const ProgressFn& progress,
                          nlohmann::ordered_json& stats);

@@ -29,7 +29,7 @@ Quality quality_from_name(const std::string& name);
 FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& size);
 
 /// Settings of the field that lights a picture: those of the quality, except where other options
-/// override them. Where neither they nor the scene say where probes stand, and the scene is far
+/// override them. Where neither they nor the scene say where probes stand, and the scene is
 /// larger than what surrounds the camera, there are finer ones around it (near_volumes).
 Expected<FieldSettings> picture_field_settings(const RenderOptions& options, const World& world,
                                                const Camera& camera);

@@ -51,8 +51,8 @@ std::string_view name_of(FirstLight light);
 
 /// Chooses the light for a camera's view: the scene's, where it has lights or a sky or where its
 /// emissive surfaces light what the camera sees; otherwise one that suits the camera's
-/// surroundings. Suns without a sky get one outdoors, where the camera sees past the scene, and in
-/// rooms that it would shine into. Traces some 10,000 rays.
+/// surroundings. Suns without a sky get one where it would be seen or felt: outdoors, over courts,
+/// and in rooms with openings. Traces some 10,000 rays.
 FirstLight choose_first_light(const World& world, const Camera& camera);
 
 /// Replaces the scene's lights and environment by those of `light`, set up for the camera's view;
@@ -75,11 +75,12 @@ std::optional<Scene> take_sky_dome(Scene& scene);
 Environment sky_of_dome(const Scene& dome, const glm::vec3& eye_ws);
 
 /// Volumes of about 4,096 probes each for fields whose grid has few cells around a camera, since
-/// the scene is far larger than the room or the yard in which it stands: one around the
-/// surfaces that surround it, or around the nearer part of what it sees from the open, a house in
-/// its grounds; and larger ones around that, until the spacing of each is at most 2.5 times that
-/// of the next. Finest first; none where the grid is fine enough, and where the camera sees far
-/// into the open. `grid`: that of the field, as fit_grid() makes it. Traces some 1,000 rays.
+/// the scene is larger than the room or the yard in which it stands: one around the surfaces that
+/// surround it, or around the nearer part of what it sees from the open, a house in its grounds;
+/// and larger ones around that, each with a spacing of about 2.5 times that of the one before, up
+/// to the grid's. Finest first; none where the grid is fine enough, where they would be less than
+/// twice as fine, and where the camera sees far into the open. `grid`: that of the field, as
+/// fit_grid() makes it. Traces some 1,000 rays.
 std::vector<ProbeVolume> near_volumes(const World& world, const Camera& camera,
                                       const FieldGrid& grid);
 

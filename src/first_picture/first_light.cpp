@@ -47,9 +47,12 @@ constexpr float kMinEmptyShare = 0.02f;
 // It is also missing where the camera sees the ground alone, from which at least this share of the
 // sky is visible.
 constexpr float kMinOpenSky = 0.5f;
-// In rooms, windows show it in this share of what the camera sees, or it reaches that much of it:
-// more than a single sample, as rays pass through cracks.
+// In rooms, windows show it in this share of what the camera sees, more than a single sample: rays
+// pass through cracks.
 constexpr float kMinWindow = 0.005f;
+// Or, through openings anywhere, what the camera sees would receive at least this share of the
+// sky's light: as small, for the same reason.
+constexpr float kMinSkyInRooms = 0.005f;
 
 // Number of rays down onto a scene's footprint, along each edge.
 constexpr int kRaysAlongFootprint = 16;
@@ -164,16 +167,15 @@ bool is_outdoors(const World& world) {
 }
 
 /// Whether suns shine out of a void that the camera sees past things on a ground, over a court, or
-/// through the windows of a room, that the ground lies under, or that light would reach a room from
-/// through windows behind the camera. Objects by themselves stay before the black that their author
-/// left.
+/// through the windows of a room, that the ground lies under, or whose light would reach what is
+/// seen of a room. Objects by themselves stay before the black that their author left.
 bool lacks_a_sky(const World& world, const Camera& camera) {
   const Scene& scene = world.scene();
   if (scene.environment.radiance != glm::vec3(0.0f) || sun_ratio(scene) <= 0.0f) return false;
   const SeenView view = sample_view(world, camera);
   const auto sky_visibility = [&] { return measure_view_light(world, view).sky_visibility; };
   if (enclosure(world, camera) >= kMinEnclosure) {
-    return view.sky_share >= kMinWindow || sky_visibility() >= kMinWindow;
+    return view.sky_share >= kMinWindow || sky_visibility() >= kMinSkyInRooms;
   }
   if (view.sky_share < kMinEmptyShare) {
     return is_outdoors(world) && sky_visibility() >= kMinOpenSky;

@@ -137,6 +137,7 @@ TEST_F(LightHistoryTest, SpreadsRareBrightRaysOverFrames) {
     double mean = 0.0;
     for (const float value : frame.image.find("irradiance")->pixels) mean += value;
     // The first frame has no average of other light yet, either
+    ASSERT_GT(mean, 0.0);
     if (i > 1) greatest = std::max(greatest, std::abs(mean / before - 1.0));
     before = mean;
   }

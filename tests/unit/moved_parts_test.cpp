@@ -35,6 +35,15 @@ TEST(MovedParts, CountForLessTheFartherTheyAre) {
   EXPECT_EQ(parts.frames_of_surface({0.0f, 2.5f, 0.0f}, kUp), most);
 }
 
+TEST(MovedParts, ContainTheirSurfacesAndNotWhatIsBesideThem) {
+  const std::vector<Bounds> moved = {{}, {{-2.0f, 1.0f, -2.0f}, {2.0f, 1.2f, 2.0f}}};
+  const MovedParts parts(moved, {});
+  EXPECT_TRUE(parts.contain({2.0f, 1.1f, 0.0f}));
+  EXPECT_TRUE(parts.contain({0.3f, 1.2f, -1.0f}));
+  // A floor below a rotor is within its bounding sphere
+  EXPECT_FALSE(parts.contain({0.0f, 0.0f, 0.0f}));
+}
+
 TEST(MovedParts, EndAveragesInTheShadowsOfLamps) {
   const std::vector<Bounds> moved = {box_at({0.0f, 6.0f, 0.0f}, 0.1f)}, lamps = {kLamp};
   const MovedParts parts(moved, lamps);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finer probes around cameras in scenes that are far larger than what they see.
+// Finer probes around cameras in scenes that are larger than what they see.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -21,7 +21,7 @@ void average_variance(const std::vector<float>& before, const HistoryTaps& taps,
 }
 
 /// Averages what a pixel gathers over at most `most` frames, over fewer where its lookup has
-/// changed. Excess of surfaces that move is left as it is: where the field lags behind them, most
+/// changed. Excess of what moves is shown as it is: where the field lags behind them, most
 /// rays bring more than their lookups.
 void average_gathered(const LightHistory& last, const HistoryTaps& taps, float most, bool moves,
                       std::size_t i, FilteredPixels& pixels, LightHistory& next) {
@@ -34,10 +34,8 @@ void average_gathered(const LightHistory& last, const HistoryTaps& taps, float m
   }
   average(last.differences, taps, frames, difference);
   average(last.looked_up, taps, frames, looked_up);
-  if (!moves) {
-    pixels.excess[i] = averaged_excess(weighted_sum(last.excess, taps), pixels.excess[i]);
-  }
-  next.excess[i] = pixels.excess[i];
+  next.excess[i] = averaged_excess(weighted_sum(last.excess, taps), pixels.excess[i]);
+  if (!moves) pixels.excess[i] = next.excess[i];
   pixels.gathered[i] = pixels.looked_up[i] + difference;
   if (pixels.gathered_variance.empty()) return;
   average_variance(last.gathered_variance, taps, frames, pixels.gathered_variance[i]);
@@ -141,7 +139,8 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
       if (is_history(taps)) frames = averaged_frames(weighted_sum(last.frames, taps), most);
       next.frames[i] = frames;
       if (!pixels.gathered.empty()) {
-        average_gathered(last, taps, most, most <= 1.0f, i, pixels, next);
+        const bool moves = by.moved != nullptr && by.moved->contain(pixels.positions_ws[i]);
+        average_gathered(last, taps, most, moves, i, pixels, next);
       }
       if (!pixels.emitters.empty()) {
         average(last.emitters, taps, frames, pixels.emitters[i]);

@@ -24,6 +24,10 @@ constexpr std::size_t kMaxParts = 32;
 // changes little of it.
 constexpr float kLobeReach = 3.0f;
 
+// Surfaces of a part lie on the faces of its box, to within rounding: the box is enlarged by this
+// share of its size.
+constexpr float kBoxMargin = 1e-3f;
+
 /// Angular radius of a sphere at a distance from its centre; pi from inside [rad].
 float angular_radius(float radius, float distance) {
   return radius < distance ? std::asin(radius / distance) : kPi;
@@ -38,7 +42,7 @@ float angle_between(const vec3& a, const vec3& b) {
 }  // namespace
 
 MovedParts::MovedParts(std::span<const Bounds> moved, std::span<const Bounds> emitters)
-    : moved_(around(moved)), emitters_(around(emitters)) {}
+    : boxes_(moved.begin(), moved.end()), moved_(around(moved)), emitters_(around(emitters)) {}
 
 std::vector<MovedParts::BoundingSphere> MovedParts::around(std::span<const Bounds> boxes) {
   std::vector<BoundingSphere> spheres;
@@ -48,6 +52,15 @@ std::vector<MovedParts::BoundingSphere> MovedParts::around(std::span<const Bound
     }
   }
   return spheres;
+}
+
+bool MovedParts::contain(const vec3& position_ws) const {
+  return std::any_of(boxes_.begin(), boxes_.end(), [&](const Bounds& box) {
+    if (box.empty()) return false;
+    const vec3 margin = kBoxMargin * (box.max - box.min);
+    return glm::all(glm::greaterThanEqual(position_ws, box.min - margin)) &&
+           glm::all(glm::lessThanEqual(position_ws, box.max + margin));
+  });
 }
 
 float MovedParts::frames_around(const vec3& position_ws, const vec3& normal_ws) const {

@@ -19,6 +19,9 @@ class MovedParts {
   /// the emissive surfaces.
   MovedParts(std::span<const Bounds> moved, std::span<const Bounds> emitters);
 
+  /// Whether a point may be on one of the parts: it is in the box around one.
+  bool contain(const vec3& position_ws) const;
+
   /// The largest number of frames, >= 1, over which the light of a surface may be averaged:
   /// irradiance from emissive surfaces, and what gathered light differs by from the field's, which
   /// follows edits at once.
@@ -37,6 +40,7 @@ class MovedParts {
   float frames_around(const vec3& position_ws, const vec3& normal_ws) const;
   bool may_shade(const BoundingSphere& part, const vec3& position_ws) const;
 
+  std::vector<Bounds> boxes_;  // around all that moved
   std::vector<BoundingSphere> moved_, emitters_;
 };
 
