@@ -17,12 +17,14 @@ constexpr double kTolerance = 0.02;
 LayeredImage render(const Scene& scene, const World& world) {
   FieldSettings few;
   few.probe_count = glm::ivec3(4);
-  few.rays_per_probe = 32;
+  few.rays_per_probe = 64;
   Expected<IrradianceField> field = IrradianceField::make(few, open_bounds(world));
-  field->update(world);
+  for (int i = 0; i < 3; ++i) field->update(world);
   FrameSettings settings = quality_settings(Quality::high);
   settings.width = settings.height = 32;
-  settings.gather_rays = 4;
+  // Rays that differ by rounding and meet other surfaces are noise: with 4 rays and one update of
+  // 32, blocks differed by 3 to 7 % over five seeds, with these by less than 3 %
+  settings.gather_rays = 32;
   return Renderer(world, {.field = &*field}).render(scene.cameras.front(), settings).value().image;
 }
 
