@@ -44,7 +44,7 @@ constexpr float kMinRatio = 2.0f;
 // own bounds cut a volume off: what stands beside the box, as the rooms of a house behind the
 // camera's or around its yard, is far smaller than a cell of the whole grid. With 4, rooms around a
 // courtyard have 1.2 times the error.
-constexpr float kMaxStep = 2.5f;
+constexpr float kSpacingStep = 2.5f;
 
 /// Places of surfaces that the camera sees.
 std::vector<glm::vec3> places_seen(const World& world, const Camera& camera) {
@@ -144,7 +144,7 @@ std::vector<ProbeVolume> near_volumes(const World& world, const Camera& camera,
 
   // Between its spacing and that of the grid
   std::vector<ProbeVolume> volumes = {*finest};
-  const float steps = std::ceil(std::log(ratio) / std::log(kMaxStep));
+  const float steps = std::ceil(std::log(ratio) / std::log(kSpacingStep));
   const Bounds whole{grid.origin, grid.origin + grid.spacing * glm::vec3(grid.count - 1)};
   for (float step = 1.0f; step < steps; ++step) {
     const glm::vec3 half = 0.5f * finest->size * std::pow(ratio, step / steps);

@@ -136,8 +136,8 @@ TEST_F(LightHistoryTest, SpreadsRareBrightRaysOverFrames) {
     const RenderedFrame frame = renderer.render(camera(), averaging(10)).value();
     double mean = 0.0;
     for (const float value : frame.image.find("irradiance")->pixels) mean += value;
-    // The first frame has no average of other light yet, either
     ASSERT_GT(mean, 0.0);
+    // The first frame has no average of other light yet, either
     if (i > 1) greatest = std::max(greatest, std::abs(mean / before - 1.0));
     before = mean;
   }

@@ -36,10 +36,13 @@ TEST(MovedParts, CountForLessTheFartherTheyAre) {
 }
 
 TEST(MovedParts, ContainTheirSurfacesAndNotWhatIsBesideThem) {
-  const std::vector<Bounds> moved = {{}, {{-2.0f, 1.0f, -2.0f}, {2.0f, 1.2f, 2.0f}}};
+  const std::vector<Bounds> moved = {
+      {}, {{-2.0f, 1.0f, -2.0f}, {2.0f, 1.2f, 2.0f}}, {{4.0f, 0.0f, 0.0f}, {4.0f, 1.0f, 1.0f}}};
   const MovedParts parts(moved, {});
   EXPECT_TRUE(parts.contain({2.0f, 1.1f, 0.0f}));
   EXPECT_TRUE(parts.contain({0.3f, 1.2f, -1.0f}));
+  // A sheet, to within rounding
+  EXPECT_TRUE(parts.contain({4.0001f, 0.5f, 0.5f}));
   // A floor below a rotor is within its bounding sphere
   EXPECT_FALSE(parts.contain({0.0f, 0.0f, 0.0f}));
 }
@@ -176,6 +179,9 @@ TEST(MovedParts, ShowWhatTheirRaysBringThoughTheFieldLags) {
   EXPECT_LT(still, 0.1 * whole);
   EXPECT_GT(moved, still + 0.05 * whole);
   EXPECT_LT(moved, 0.5 * whole);
+  // Once it rests, its average goes on from the frames before: that one frame does not stay
+  const double rested = mean_light(16);
+  EXPECT_LT(rested, moved);
 }
 
 }  // namespace

@@ -65,7 +65,8 @@ TEST(NearVolumes, StandWithinOthersWhoseSpacingGrowsInSteps) {
     const bool last = i + 1 == volumes.size();
     const float coarser = last ? grid.spacing.x : spacing_of(volumes[i + 1]);
     EXPECT_GT(coarser, spacing_of(volumes[i]));
-    EXPECT_LT(coarser, 4.0f * spacing_of(volumes[i])) << i;
+    // The bounds of the grid cut off the last one, below and above, which makes it finer
+    EXPECT_LT(coarser, (last ? 4.0f : 2.5f) * spacing_of(volumes[i])) << i;
     if (last) break;
     // What stands beside the room is in the next one
     const glm::vec3 low = volumes[i].centre - 0.5f * volumes[i].size;

@@ -130,13 +130,15 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
             depth_tolerance(depth, pixel_width_at_depth(camera, depth), dot(normal_ws, to_viewer)),
             normal_ws);
       }
-      float most = by.most_frames;
-      if (by.moved != nullptr && pixels.depths[i] > 0.0f) {
-        most = std::min(most, by.moved->frames_of_surface(pixels.positions_ws[i],
-                                                          pixels.geometric_normals_ws[i]));
+      float frames = 1.0f, most = 1.0f;
+      if (is_history(taps)) {
+        most = by.most_frames;
+        if (by.moved != nullptr) {
+          most = std::min(most, by.moved->frames_of_surface(pixels.positions_ws[i],
+                                                            pixels.geometric_normals_ws[i]));
+        }
+        frames = averaged_frames(weighted_sum(last.frames, taps), most);
       }
-      float frames = 1.0f;
-      if (is_history(taps)) frames = averaged_frames(weighted_sum(last.frames, taps), most);
       next.frames[i] = frames;
       if (!pixels.gathered.empty()) {
         const bool moves = by.moved != nullptr && by.moved->contain(pixels.positions_ws[i]);

@@ -25,7 +25,7 @@ constexpr std::size_t kMaxParts = 32;
 constexpr float kLobeReach = 3.0f;
 
 // Surfaces of a part lie on the faces of its box, to within rounding: the box is enlarged by this
-// share of its size.
+// share of its diagonal, as the box around a sheet has no thickness.
 constexpr float kBoxMargin = 1e-3f;
 
 /// Angular radius of a sphere at a distance from its centre; pi from inside [rad].
@@ -57,7 +57,7 @@ std::vector<MovedParts::BoundingSphere> MovedParts::around(std::span<const Bound
 bool MovedParts::contain(const vec3& position_ws) const {
   return std::any_of(boxes_.begin(), boxes_.end(), [&](const Bounds& box) {
     if (box.empty()) return false;
-    const vec3 margin = kBoxMargin * (box.max - box.min);
+    const vec3 margin(kBoxMargin * length(box.max - box.min));
     return glm::all(glm::greaterThanEqual(position_ws, box.min - margin)) &&
            glm::all(glm::lessThanEqual(position_ws, box.max + margin));
   });
