@@ -48,6 +48,8 @@
 #include "shaders/pixel_queries_comp.h"
 #include "shaders/ray_queries_comp.h"
 #include "shaders/replace_light_comp.h"
+#include "shaders/secondary_light_comp.h"
+#include "shaders/secondary_rays_comp.h"
 #include "shaders/seen_distances_comp.h"
 #include "shaders/show_clearcoats_comp.h"
 #include "shaders/show_through_comp.h"
@@ -74,6 +76,8 @@ struct FrameKernels {
   vulkan::Kernel pixel_queries{device, shaders::pixel_queries_comp(), "pixel queries"};
   vulkan::Kernel gather_rays{device, shaders::gather_rays_comp(), "gather rays"};
   vulkan::Kernel ray_queries{device, shaders::ray_queries_comp(), "ray queries"};
+  vulkan::Kernel secondary_rays{device, shaders::secondary_rays_comp(), "secondary rays"};
+  vulkan::Kernel secondary_light{device, shaders::secondary_light_comp(), "secondary light"};
   vulkan::Kernel gather_sum{device, shaders::gather_sum_comp(), "gather sum"};
   vulkan::Kernel replace_light{device, shaders::replace_light_comp(), "replace light"};
   vulkan::Kernel view_geometry{device, shaders::view_geometry_comp(), "view geometry"};
@@ -126,6 +130,11 @@ struct SeenThroughBuffers {
   vulkan::Buffer filtered_emitters, filtered_coats, filtered;
 };
 
+/// Rays that gather light, their hits, and the field's irradiance there.
+struct GatherBuffers {
+  vulkan::Buffer rays, points, shaded, direct, field;
+};
+
 /// Memory of a PathList.
 struct PathBuffers {
   vulkan::Buffer rays, cones, paths, pixels, count;
@@ -165,9 +174,10 @@ struct FrameMemory {
   vulkan::Buffer queries, irradiance, mirror_irradiance, subtracted_field, from_maps;
   vulkan::Buffer gathered_variance, emitters, emitter_squares, emitter_specular;
   vulkan::Buffer sky, sky_in_clearcoats;
-  // For the rays that gather the light of some pixels at a time
-  vulkan::Buffer gathering_rays, gathering_indices, gathered_hits, gathered_points, gathered,
-      gathered_direct, gathered_field;
+  // For the rays that gather the light of some pixels at a time, and secondary gathers at their
+  // hits
+  GatherBuffers gathers, secondary_gathers;
+  vulkan::Buffer gathered_hits, gathering_indices, secondary_indices, field_grids;
   // Positions, normals and depths of a band's pixels, and of the small view of reflective shadow
   // maps
   vulkan::Buffer band_geometry[3], small_geometry[3];
@@ -245,6 +255,21 @@ class FramePassesVulkan final : public FramePasses {
   }
   void look_up(const char* name, const IrradianceField& field, const Buffer& queries,
                std::uint32_t count, CorrectionUse use, const Buffer& irradiance);
+  /// Some pixels of the band, whose light is gathered at a time.
+  struct GatheredPixels {
+    std::uint32_t first, count, rays_per_pixel;
+    std::uint32_t rays() const { return count * rays_per_pixel; }
+  };
+  /// Makes room for the gathers of so many pixels, which have so many rays.
+  void reserve_gather(std::size_t pixels, std::size_t rays);
+  /// Appends passes that trace rays which gather light, and light their hits. The rays come in runs
+  /// of `rays_per_index`, see HitShading::shade_hits.
+  void light_gathers(const GatherBuffers& gathers, std::uint32_t count, const Buffer& first_indices,
+                     std::uint32_t rays_per_index, const ShadeHitsSettings& shading);
+  // Append the passes of a gather; see gather/gather.cpp
+  void draw_gathers(const GatheredPixels& pixels);
+  void draw_secondary_gathers(const GatheredPixels& pixels, int volumes);
+  void sum_gathers(const GatheredPixels& pixels);
   /// Lights the coats of the rows around the band, which see_around_band() has filled in, by rays;
   /// see Glossy::reflect. `sky`: see reflect_band(). Returns whether there are any rays.
   bool trace_coats(const Band& around, std::uint32_t seed, const Buffer& sky);

@@ -11,6 +11,7 @@
 #include "core/parallel.h"
 #include "field/field_access.h"
 #include "field/lookup/query_at.h"
+#include "field/probes/volumes.h"
 #include "gather/gather_math.h"
 #include "raytracing/shade_hits.h"
 #include "raytracing/world_access.h"
@@ -22,50 +23,84 @@ namespace {
 
 constexpr std::size_t kPixelsPerTask = 256;
 
+/// The volumes of a field.
+struct FieldVolumes {
+  std::span<const ProbeGrid> grids;
+
+  const ProbeGrid& fetch_grid(int volume) const { return grids[static_cast<std::size_t>(volume)]; }
+#include "field/lookup/spacing.inl.h"
+};
+
+/// What gathers read.
+struct GatherSources {
+  const World& world;
+  const IrradianceField& field;
+  std::vector<ProbeGrid> grids;
+  ShadeHitsSettings shading;
+};
+
+/// Rays, the shading of their hits, and the field's irradiance there [W/m^2].
+struct GatheringRays {
+  std::vector<Ray> rays;
+  std::vector<std::size_t> indices;  // among all rays of the picture
+  std::vector<ShadedHit> shaded;
+  std::vector<vec3> from_field;
+
+  /// Traces the rays and computes the direct light at their hits; returns the number of rays
+  /// traced.
+  std::uint64_t trace(const GatherSources& from, std::uint32_t salt, ShadeHitsScratch& scratch) {
+    std::vector<Hit> hits(rays.size());
+    shaded.resize(rays.size());
+    tracer_of(from.world).closest_hits(rays, hits);
+    ShadeHitsSettings shading = from.shading;
+    shading.salt = salt;
+    return rays.size() + shade_hits(from.world, rays, hits, shading, indices, scratch, shaded);
+  }
+
+  /// Looks up the field where hits reflect its light and `skips` is not 1; empty: all do.
+  void look_up(const GatherSources& from, std::span<const std::uint8_t> skips = {}) {
+    std::vector<FieldQuery> queries;
+    std::vector<std::size_t> asking;
+    for (std::size_t i = 0; i < shaded.size(); ++i) {
+      if (!reads_field(shaded[i].surface) || (!skips.empty() && skips[i] != 0)) continue;
+      queries.push_back(query_at(shaded[i].point));
+      asking.push_back(i);
+    }
+    std::vector<vec3> answers(queries.size());
+    look_up_irradiance(from.field, queries, CorrectionUse::picked, answers, from.world);
+    from_field.resize(shaded.size(), vec3(0.0f));
+    for (std::size_t k = 0; k < asking.size(); ++k) from_field[asking[k]] = answers[k];
+  }
+};
+
 /// A run of pixels. Those that show a surface gather light.
 class GatherChunk {
  public:
-  GatherChunk(const World& world, const GatherRequest& request, std::size_t begin, std::size_t end)
-      : world_(world),
-        request_(request),
-        rays_per_pixel_(static_cast<std::size_t>(request.rays_per_pixel)),
-        first_pixel_(static_cast<std::size_t>(request.first_row) * request.width) {
+  GatherChunk(const GatherRequest& request, std::size_t begin, std::size_t end)
+      : request_(request), rays_per_pixel_(static_cast<std::size_t>(request.rays_per_pixel)) {
     for (std::size_t i = begin; i < end; ++i) {
       if (request.seen[i] != 0) add_rays(i);
     }
   }
 
-  /// Traces the rays and computes the direct light at their hits; returns the number of rays
-  /// traced.
-  std::uint64_t trace(const ShadeHitsSettings& shading) {
-    std::uint64_t traced = rays_.size();
-    std::vector<Hit> hits(rays_.size());
-    shaded_.resize(rays_.size());
-    tracer_of(world_).closest_hits(rays_, hits);
-    // Shade runs of neighbouring pixels together
-    for (std::size_t first = 0, end_of_run; first < pixels_.size(); first = end_of_run) {
-      end_of_run = first + 1;
-      while (end_of_run < pixels_.size() && pixels_[end_of_run] == pixels_[end_of_run - 1] + 1) {
-        ++end_of_run;
-      }
-      const std::size_t at = first * rays_per_pixel_,
-                        count = (end_of_run - first) * rays_per_pixel_;
-      traced += shade_hits(world_, std::span(rays_).subspan(at, count),
-                           std::span(hits).subspan(at, count), shading,
-                           (first_pixel_ + pixels_[first]) * rays_per_pixel_, scratch_,
-                           std::span(shaded_).subspan(at, count));
+  /// Computes what the rays gather; returns the number of rays traced.
+  std::uint64_t trace(const GatherSources& from) {
+    std::uint64_t traced = first_.trace(from, request_.sample, scratch_);
+    const std::vector<std::uint8_t> gathers_again = add_secondary_rays(from);
+    traced += second_.trace(from, request_.sample ^ kSecondarySalt, scratch_);
+    first_.look_up(from, gathers_again);
+    second_.look_up(from);
+    for (std::size_t k = 0; k < parents_.size(); ++k) {
+      const LitPoint& point = first_.shaded[parents_[k]].point;
+      first_.from_field[parents_[k]] = secondary_irradiance(
+          point.normal_ws, point.geometric_normal_ws, second_.rays[k].direction,
+          second_.shaded[k].surface, second_.shaded[k].direct_irradiance, second_.from_field[k]);
     }
     return traced;
   }
 
-  /// Adds the field's light at the hits, and sums up each pixel's rays.
-  void light(const IrradianceField& field, GatheredLight& light) const {
-    std::vector<FieldQuery> queries(rays_.size());
-    std::vector<vec3> from_field(rays_.size());
-    for (std::size_t i = 0; i < rays_.size(); ++i) {
-      queries[i] = query_at(shaded_[i].point);
-    }
-    look_up_irradiance(field, queries, CorrectionUse::picked, from_field, world_);
+  /// Sums up each pixel's rays.
+  void sum(GatheredLight& light) const {
     const std::span<const vec3> known = request_.known;
     for (std::size_t p = 0; p < pixels_.size(); ++p) {
       const Surface& surface = request_.surfaces[pixels_[p]];
@@ -75,12 +110,9 @@ class GatherChunk {
       vec3 sum(0.0f), excess(0.0f);
       float luminances = 0.0f, squares = 0.0f;
       for (std::size_t r = p * rays_per_pixel_; r < (p + 1) * rays_per_pixel_; ++r) {
-        // A bent normal's hemisphere reaches below the surface, from where no light comes
-        if (dot(geometric_normal_ws, rays_[r].direction) <= 0.0f) continue;
-        // Rays are drawn in proportion to the cosine: irradiance is pi times their mean radiance
-        const vec3 brought =
-            (kPi * above) *
-            gathered_radiance(shaded_[r].surface, shaded_[r].direct_irradiance, from_field[r]);
+        const vec3 brought = gathered_irradiance(
+            above, geometric_normal_ws, first_.rays[r].direction, first_.shaded[r].surface,
+            first_.shaded[r].direct_irradiance, first_.from_field[r]);
         const vec3 kept = known.empty() ? brought : kept_of_ray(brought, known[pixels_[p]]);
         const float level = luminance(kept);
         sum += kept;
@@ -106,20 +138,43 @@ class GatherChunk {
     const auto width = static_cast<std::size_t>(request_.width);
     const auto x = static_cast<uint>(pixel % width);
     const auto y = static_cast<uint>(pixel / width) + static_cast<uint>(request_.first_row);
+    const std::size_t place = static_cast<std::size_t>(request_.first_row) * width + pixel;
     const auto count = static_cast<uint>(rays_per_pixel_);
     for (uint ray = 0; ray < count; ++ray) {
       const vec2 point = pixel_point(x, y, ray, count, request_.sample, request_.seed);
-      rays_.push_back(
+      first_.rays.push_back(
           {origin, 0.0f, gather_direction(frame, point), kInfiniteDistance, kRayGathers});
+      first_.indices.push_back(place * rays_per_pixel_ + ray);
     }
   }
 
-  const World& world_;
+  /// Adds the rays of secondary gathers. Returns 1 for each hit that has one.
+  std::vector<std::uint8_t> add_secondary_rays(const GatherSources& from) {
+    std::vector<std::uint8_t> gathers_again(first_.rays.size(), 0);
+    FieldVolumes volumes{from.grids};
+    const int count = static_cast<int>(from.grids.size());
+    for (std::size_t i = 0; i < first_.rays.size(); ++i) {
+      if (!reads_field(first_.shaded[i].surface)) continue;
+      const LitPoint& point = first_.shaded[i].point;
+      const SecondaryRay drawn =
+          secondary_ray(point.position_ws, point.normal_ws, point.geometric_normal_ws,
+                        point.viewer_distance, volumes.spacing_at(count, point.position_ws),
+                        static_cast<uint>(first_.indices[i]), request_.sample, request_.seed);
+      if (!drawn.traced) continue;
+      gathers_again[i] = 1;
+      parents_.push_back(i);
+      second_.rays.push_back(
+          {drawn.origin_ws, 0.0f, drawn.direction_ws, kInfiniteDistance, kRayGathers});
+      second_.indices.push_back(first_.indices[i]);
+    }
+    return gathers_again;
+  }
+
   const GatherRequest& request_;
-  std::size_t rays_per_pixel_, first_pixel_;
+  std::size_t rays_per_pixel_;
   std::vector<std::size_t> pixels_;
-  std::vector<Ray> rays_;
-  std::vector<ShadedHit> shaded_;
+  GatheringRays first_, second_;
+  std::vector<std::size_t> parents_;  // hits of the first rays, from which the second ones start
   ShadeHitsScratch scratch_;
 };
 
@@ -130,18 +185,18 @@ std::uint64_t gather_irradiance(const World& world, const IrradianceField& field
   light.irradiance.assign(request.seen.size(), vec3(0.0f));
   light.excess.assign(request.known.empty() ? 0 : request.seen.size(), vec3(0.0f));
   light.variance.assign(request.rays_per_pixel > 1 ? request.seen.size() : 0, 0.0f);
-  ShadeHitsSettings shading;
+  GatherSources from{world, field, still_grids(field.grids()), {}};
+  ShadeHitsSettings& shading = from.shading;
   shading.cone_width = kHemisphereConeWidth / sqrt(static_cast<float>(request.rays_per_pixel));
   shading.max_albedo = field.settings().max_albedo;
-  shading.salt = request.sample;
   shading.seed = request.seed;
   shading.candidates = kGatherCandidates;
   shading.follow_mirrors = true;
   std::atomic<std::uint64_t> traced = 0;
   parallel_chunks(request.seen.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
-    GatherChunk chunk(world, request, begin, end);
-    traced += chunk.trace(shading);
-    chunk.light(field, light);
+    GatherChunk chunk(request, begin, end);
+    traced += chunk.trace(from);
+    chunk.sum(light);
   });
   return traced;
 }

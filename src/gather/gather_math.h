@@ -6,6 +6,8 @@
 #include "raytracing/shaded_hit.h"
 #include "shared/color.h"
 #include "shared/pixel_points.h"
+#include "shared/random.h"
+#include "shared/rays.h"
 #include "shared/sampling.h"
 
 LAMBENT_BEGIN
@@ -18,6 +20,64 @@ const uint kGatherCandidates = 2u;
 /// Direction of a ray, with density cosine over pi about the frame's normal.
 LAMBENT_FN vec3 gather_direction(Frame frame, vec2 point) {
   return to_world(frame, sample_cosine_hemisphere(point));
+}
+
+// Surfaces that are nearer to each other than probes are light each other with more detail than
+// lookups have: light between a lamp and its housing, shade under a bench. Where a gathering ray is
+// shorter than a spacing of the probes at its hit, a secondary gather may replace the lookup there
+// by one more ray: always up to half a spacing, and ever more rarely up to a whole one, so that
+// there is no seam. Secondary final gathering: Christensen, "Faster Photon Map Global
+// Illumination", Journal of Graphics Tools 4(3), 1999.
+const float kSecondaryReach = 1.0f;  // [spacings]
+
+// Gives secondary gathers random numbers of their own.
+const uint kSecondarySalt = 0x85EBCA6Bu;
+
+/// The probability of a secondary gather where a ray of this length [m] ends among probes of this
+/// spacing [m].
+LAMBENT_FN float secondary_probability(float distance, float spacing) {
+  return clamp(2.0f - 2.0f * distance / (kSecondaryReach * spacing), 0.0f, 1.0f);
+}
+
+/// The ray of a secondary gather.
+struct SecondaryRay {
+  bool traced;  ///< Whether there is one.
+  vec3 origin_ws, direction_ws;
+};
+
+/// Draws the secondary gather at the hit of a ray of this length [m], whose index among all rays of
+/// the picture this is.
+LAMBENT_FN SecondaryRay secondary_ray(vec3 position_ws, vec3 normal_ws, vec3 geometric_normal_ws,
+                                      float distance, float spacing, uint index, uint sample_index,
+                                      uint seed) {
+  RandomStream random = make_random_stream(index, sample_index ^ kSecondarySalt, seed);
+  SecondaryRay ray;
+  ray.traced = next_uniform(random) < secondary_probability(distance, spacing);
+  ray.origin_ws = offset_ray_origin(position_ws, geometric_normal_ws);
+  ray.direction_ws = gather_direction(make_frame(normal_ws), next_uniform2(random));
+  return ray;
+}
+
+/// Whether a lookup at a hit adds to what its ray gathers.
+LAMBENT_FN bool reads_field(ShadedHitRecord hit) {
+  return hit.gi_share > 0.0f && hit.albedo_over_pi != vec3(0.0f);
+}
+
+/// Irradiance that one ray gathers whose direction has density cosine over pi. `above` is
+/// above_horizon() of the surface, whose geometric normal this is.
+LAMBENT_FN vec3 gathered_irradiance(float above, vec3 geometric_normal_ws, vec3 direction_ws,
+                                    ShadedHitRecord hit, vec3 direct, vec3 field) {
+  // A bent normal's hemisphere reaches below the surface, from where no light comes
+  if (dot(geometric_normal_ws, direction_ws) <= 0.0f) return vec3(0.0f);
+  return (kPi * above) * gathered_radiance(hit, direct, field);
+}
+
+/// Irradiance at the hit of a gathering ray that its secondary gather stands for. The hit's share
+/// of indirect light is left to gathered_radiance().
+LAMBENT_FN vec3 secondary_irradiance(vec3 normal_ws, vec3 geometric_normal_ws, vec3 direction_ws,
+                                     ShadedHitRecord hit, vec3 direct, vec3 field) {
+  float above = above_horizon(1.0f, dot(normal_ws, geometric_normal_ws));
+  return gathered_irradiance(above, geometric_normal_ws, direction_ws, hit, direct, field);
 }
 
 // A ray that contributes this many times the irradiance that the field has at its pixel is so rare

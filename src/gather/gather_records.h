@@ -33,6 +33,35 @@ struct RayQueriesArguments {
   uint padding;
 };
 
+/// Makes the rays of secondary gathers at the hits of gathering rays, and writes their indices.
+struct SecondaryRaysArguments {
+  RayArray gathering_rays;
+  LitPointArray points;     ///< The hits of the gathering rays.
+  ShadedHitArray shaded;    ///< Those hits.
+  UintArray first_indices;  ///< Index of each pixel's first ray.
+  GridArray grids;
+  RayArray rays;
+  UintArray indices;
+  int volumes;
+  uint count;
+  uint rays_per_pixel;
+  uint sample_index;
+  uint seed;
+  uint padding;
+};
+
+/// Replaces lookups at the hits of gathering rays by what secondary gathers found there.
+struct SecondaryLightArguments {
+  LitPointArray points;  ///< The hits of the gathering rays.
+  RayArray rays;         ///< Of the secondary gathers, as are the next three.
+  ShadedHitArray shaded;
+  Vec3Array direct;
+  Vec3Array field;
+  Vec3Array replaced;  ///< Irradiance at the hits of the gathering rays from the field.
+  uint count;
+  uint padding;
+};
+
 /// Computes the irradiance of pixels from what their rays gathered.
 struct GatherSumArguments {
   LitPointArray points;        ///< One for each pixel of the band.

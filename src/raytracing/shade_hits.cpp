@@ -149,12 +149,12 @@ std::size_t shade_surfaces(const World& world, std::span<const Ray> rays, std::s
 /// Traces the rays that go on at mirrors, so far `mirrors` one after the other, and merges what
 /// they find into the hits. Returns the number of rays traced, 0 where none goes on.
 std::size_t follow_mirrors(const World& world, std::span<const Ray> rays, std::span<const Hit> hits,
-                           const ShadeHitsSettings& settings, std::size_t first_index, uint mirrors,
-                           ShadeHitsScratch& scratch, std::span<ShadedHit> shaded) {
+                           const ShadeHitsSettings& settings, std::span<const std::size_t> indices,
+                           uint mirrors, ShadeHitsScratch& scratch, std::span<ShadedHit> shaded) {
   ShadeHitsScratch::Reflected& reflected = scratch.reflected;
   reflected.from.clear();
   reflected.rays.clear();
-  scratch.indices.clear();
+  reflected.indices.clear();
   const std::uint32_t salt = salt_of_mirror(settings.salt, mirrors);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const LitPoint& point = shaded[i].point;
@@ -163,15 +163,14 @@ std::size_t follow_mirrors(const World& world, std::span<const Ray> rays, std::s
     if (!goes_on(shaded[i].surface, point.albedo_shape, point.normal_ws, point.to_viewer_ws)) {
       continue;
     }
-    RandomStream random =
-        make_random_stream(static_cast<uint>(first_index + i), salt, settings.seed);
+    RandomStream random = make_random_stream(static_cast<uint>(indices[i]), salt, settings.seed);
     reflected.from.push_back(i);
     reflected.rays.push_back(
         {offset_ray_origin(point.position_ws, point.geometric_normal_ws), 0.0f,
          sample_mirror(point.albedo_shape, point.normal_ws, point.geometric_normal_ws,
                        point.to_viewer_ws, next_uniform2(random)),
          kInfiniteDistance, rays[i].mask});
-    scratch.indices.push_back(first_index + i);
+    reflected.indices.push_back(indices[i]);
   }
   if (reflected.rays.empty()) return 0;
 
@@ -182,7 +181,7 @@ std::size_t follow_mirrors(const World& world, std::span<const Ray> rays, std::s
   ShadeHitsSettings behind = settings;
   behind.salt = salt_behind(settings.salt, mirrors + 1);
   const std::size_t shadow_rays = shade_surfaces(world, reflected.rays, reflected.hits, behind,
-                                                 scratch.indices, scratch, reflected.shaded);
+                                                 reflected.indices, scratch, reflected.shaded);
   for (std::size_t k = 0; k < reflected.from.size(); ++k) {
     const std::size_t i = reflected.from[k];
     const ShadedHit& shown = reflected.shaded[k];
@@ -196,21 +195,27 @@ std::size_t follow_mirrors(const World& world, std::span<const Ray> rays, std::s
 }  // namespace
 
 std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<const Hit> hits,
-                       const ShadeHitsSettings& settings, std::size_t first_index,
+                       const ShadeHitsSettings& settings, std::span<const std::size_t> indices,
                        ShadeHitsScratch& scratch, std::span<ShadedHit> shaded) {
-  assert(rays.size() == hits.size() && rays.size() == shaded.size());
-  scratch.indices.resize(rays.size());
-  std::iota(scratch.indices.begin(), scratch.indices.end(), first_index);
-  std::size_t traced =
-      shade_surfaces(world, rays, hits, settings, scratch.indices, scratch, shaded);
+  assert(rays.size() == hits.size() && rays.size() == shaded.size() &&
+         rays.size() == indices.size());
+  std::size_t traced = shade_surfaces(world, rays, hits, settings, indices, scratch, shaded);
   if (!settings.follow_mirrors) return traced;
   for (uint mirrors = 0; mirrors < kMaxMirrors; ++mirrors) {
     const std::size_t followed =
-        follow_mirrors(world, rays, hits, settings, first_index, mirrors, scratch, shaded);
+        follow_mirrors(world, rays, hits, settings, indices, mirrors, scratch, shaded);
     if (followed == 0) break;
     traced += followed;
   }
   return traced;
+}
+
+std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<const Hit> hits,
+                       const ShadeHitsSettings& settings, std::size_t first_index,
+                       ShadeHitsScratch& scratch, std::span<ShadedHit> shaded) {
+  scratch.indices.resize(rays.size());
+  std::iota(scratch.indices.begin(), scratch.indices.end(), first_index);
+  return shade_hits(world, rays, hits, settings, scratch.indices, scratch, shaded);
 }
 
 }  // namespace lambent

@@ -66,10 +66,10 @@ struct ShadeHitsScratch {
   ShadowRays shadows;
   std::vector<Ray> to_hits;          // the rays, each ending at its hit
   std::vector<glm::vec3> through;    // share of light that passes along them
-  std::vector<std::size_t> indices;  // of the rays among all, for their random numbers
-  /// Rays that mirrors reflect, and the hits of `shaded` from which they come.
+  std::vector<std::size_t> indices;  // of rays that follow each other
+  /// Rays that mirrors reflect, their indices, and the hits of `shaded` from which they come.
   struct Reflected {
-    std::vector<std::size_t> from;
+    std::vector<std::size_t> from, indices;
     std::vector<Ray> rays;
     std::vector<Hit> hits;
     std::vector<ShadedHit> shaded;
@@ -82,8 +82,14 @@ std::size_t direct_irradiance(const World& world, std::span<const DirectLightQue
                               const ShadeHitsSettings& settings, ShadeHitsScratch& scratch,
                               std::span<glm::vec3> irradiance);
 
-/// Shades the hits of rays; all spans have the same length. `first_index` is the index of the first
-/// ray among all. Single-threaded. Returns the number of rays traced: to lights, and from mirrors.
+/// Shades the hits of rays; all spans have the same length. `indices` are those of the rays among
+/// all, which make their random numbers unique. Single-threaded. Returns the number of rays traced:
+/// to lights, and from mirrors.
+std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<const Hit> hits,
+                       const ShadeHitsSettings& settings, std::span<const std::size_t> indices,
+                       ShadeHitsScratch& scratch, std::span<ShadedHit> shaded);
+
+/// Shades the hits of rays that follow each other among all, from `first_index`.
 std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<const Hit> hits,
                        const ShadeHitsSettings& settings, std::size_t first_index,
                        ShadeHitsScratch& scratch, std::span<ShadedHit> shaded);

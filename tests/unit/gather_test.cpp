@@ -96,6 +96,37 @@ TEST(Gather, WhatRareBrightRaysBringIsKeptApartAndNotLost) {
   EXPECT_NEAR(luminance(kept + excess), luminance(all), 1e-4f * luminance(all));
 }
 
+TEST(Gather, SecondaryGathersEndWithinASpacing) {
+  EXPECT_EQ(secondary_probability(0.0f, 2.0f), 1.0f);
+  EXPECT_EQ(secondary_probability(1.0f, 2.0f), 1.0f);
+  EXPECT_FLOAT_EQ(secondary_probability(1.5f, 2.0f), 0.5f);
+  EXPECT_EQ(secondary_probability(2.0f, 2.0f), 0.0f);
+  EXPECT_EQ(secondary_probability(100.0f, 2.0f), 0.0f);
+}
+
+TEST(Gather, SecondaryGathersSupplyLightThatTheFieldLacks) {
+  const test::Stage stage("cornell");
+  FrameSettings frame;
+  frame.width = frame.height = 24;
+  const GBuffer gbuffer = seen_of(stage, frame);
+  const GatherRequest request{gbuffer.surfaces, gbuffer.hit, frame.width, 0, 32};
+  // Fields without light leave the light of one bounce, and of a second one where gathers are
+  // secondary
+  const auto mean_light = [&](int probes) {
+    FieldSettings settings;
+    settings.probe_count = glm::ivec3(probes);
+    const IrradianceField dark = test::make_field(stage, settings, 0);
+    GatheredLight light;
+    gather_irradiance(stage.world, dark, request, light);
+    float sum = 0.0f;
+    for (const vec3& irradiance : light.irradiance) sum += luminance(irradiance);
+    return sum;
+  };
+  const float dense = mean_light(48), sparse = mean_light(2);
+  EXPECT_GT(sparse, 1.2f * dense);
+  EXPECT_LT(sparse, 2.0f * dense);
+}
+
 TEST(Gather, TellsHowNoisyItsLightIs) {
   const test::Stage stage("cornell");
   const IrradianceField field = coarse_field(stage);

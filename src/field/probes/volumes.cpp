@@ -197,6 +197,12 @@ ProbeGrid still_grid(const FieldGrid& grid) {
           0,           half,         half + kFadeCells, vec3(kFadeCells)};
 }
 
+std::vector<ProbeGrid> still_grids(std::span<const FieldGrid> grids) {
+  std::vector<ProbeGrid> still;
+  for (const FieldGrid& grid : grids) still.push_back(still_grid(grid));
+  return still;
+}
+
 FieldGrid field_grid(const ProbeGrid& grid) {
   return {grid.origin_ws, grid.spacing, grid.count, grid.axes};
 }

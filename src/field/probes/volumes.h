@@ -51,6 +51,10 @@ std::vector<ProbeGrid> grids_of(std::span<const Volume> volumes);
 /// probes.
 ProbeGrid still_grid(const FieldGrid& grid);
 
+/// The grids of a field's volumes as if none of them scrolled: in the same places, but not in the
+/// same order in memory.
+std::vector<ProbeGrid> still_grids(std::span<const FieldGrid> grids);
+
 /// The grid of a volume, for the public interface.
 FieldGrid field_grid(const ProbeGrid& grid);
 

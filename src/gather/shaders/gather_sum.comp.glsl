@@ -30,10 +30,10 @@ void main() {
   for (uint r = 0u; r < args.rays_per_pixel; ++r) {
     uint at = k * args.rays_per_pixel + r;
     RayRecord ray = args.rays.at[at];
-    // A bent normal's hemisphere reaches below the surface, from where no light comes
-    if (ray.mask == 0u || dot(point.geometric_normal_ws, ray.direction_ws) <= 0.0f) continue;
-    vec3 brought = (kPi * above) *
-        gathered_radiance(args.shaded.at[at], args.direct.at[at], args.field.at[at]);
+    if (ray.mask == 0u) continue;
+    vec3 brought =
+        gathered_irradiance(above, point.geometric_normal_ws, ray.direction_ws,
+                            args.shaded.at[at], args.direct.at[at], args.field.at[at]);
     vec3 kept = args.keeps_excess != 0u ? kept_of_ray(brought, known) : brought;
     float level = luminance(kept);
     sum += kept;

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// Indirect light of a frame on a device that rays gather; see gather/gather.cpp.
+#include <algorithm>
+#include <cmath>
+
+#include "compose/frame_vulkan.h"
+#include "field/probes/volumes.h"
+#include "gather/gather_math.h"
+#include "lambent/field.h"
+
+namespace lambent {
+namespace {
+
+// Rays gathered at a time: enough to fill any device, few enough for little memory (about 120 MB).
+constexpr std::uint32_t kGatherRays = 1u << 18;
+
+}  // namespace
+
+void FramePassesVulkan::reserve_gather(std::size_t pixels, std::size_t rays) {
+  FrameMemory& m = memory_;
+  reserve<vec3>(pixels_, "irradiance", m.irradiance);
+  reserve<float>(pixels_, "variance", m.gathered_variance);
+  reserve<uint>(pixels, "gathering indices", m.gathering_indices);
+  reserve<uint>(rays, "secondary indices", m.secondary_indices);
+  reserve<HitRecord>(rays, "gathered hits", m.gathered_hits);
+  reserve<QueryRecord>(rays, "queries", m.queries);
+  for (GatherBuffers* gathers : {&m.gathers, &m.secondary_gathers}) {
+    reserve<RayRecord>(rays, "gathering rays", gathers->rays);
+    reserve<LitPointRecord>(rays, "gathered points", gathers->points);
+    reserve<ShadedHitRecord>(rays, "gathered light", gathers->shaded);
+    reserve<vec3>(rays, "gathered direct light", gathers->direct);
+    reserve<vec3>(rays, "gathered field", gathers->field);
+  }
+}
+
+void FramePassesVulkan::light_gathers(const GatherBuffers& gathers, std::uint32_t count,
+                                      const Buffer& first_indices, std::uint32_t rays_per_index,
+                                      const ShadeHitsSettings& shading) {
+  add("gather", [=, this, &gathers, &first_indices](Recorder& to) {
+    const HitArray hits{memory_.gathered_hits.address()};
+    world_.tracer().closest_hits(to, {{gathers.rays.address()}, count}, hits);
+    to.barrier();
+    memory_.gather_shading.shade_hits(
+        to, stage(), {{gathers.rays.address()}, hits, count}, {first_indices.address()},
+        rays_per_index, shading,
+        {{gathers.points.address()}, {gathers.shaded.address()}, {gathers.direct.address()}});
+    const RayQueriesArguments asked = {
+        {gathers.points.address()}, {memory_.queries.address()}, count, 0u};
+    to.run(kernels_.ray_queries, asked, count);
+  });
+  look_up("gather", *request_->sources.field, memory_.queries, count, CorrectionUse::picked,
+          gathers.field);
+}
+
+void FramePassesVulkan::draw_gathers(const GatheredPixels& pixels) {
+  const auto width = static_cast<uint>(request_->settings.width);
+  const std::uint32_t seed = request_->settings.seed;
+  add("gather", [=, this, &m = memory_](Recorder& to) {
+    const GatherRaysArguments drawn = {{m.points.address()},
+                                       {m.surfaces.address()},
+                                       {m.gathers.rays.address()},
+                                       {m.gathering_indices.address()},
+                                       pixels.first,
+                                       pixels.count,
+                                       first_pixel_,
+                                       width,
+                                       pixels.rays_per_pixel,
+                                       sample_,
+                                       seed,
+                                       0u};
+    to.run(kernels_.gather_rays, drawn, pixels.count);
+  });
+}
+
+void FramePassesVulkan::draw_secondary_gathers(const GatheredPixels& pixels, int volumes) {
+  add("gather", [=, this, &m = memory_](Recorder& to) {
+    const SecondaryRaysArguments drawn = {{m.gathers.rays.address()},
+                                          {m.gathers.points.address()},
+                                          {m.gathers.shaded.address()},
+                                          {m.gathering_indices.address()},
+                                          {m.field_grids.address()},
+                                          {m.secondary_gathers.rays.address()},
+                                          {m.secondary_indices.address()},
+                                          volumes,
+                                          pixels.rays(),
+                                          pixels.rays_per_pixel,
+                                          sample_,
+                                          request_->settings.seed,
+                                          0u};
+    to.run(kernels_.secondary_rays, drawn, pixels.rays());
+  });
+}
+
+void FramePassesVulkan::sum_gathers(const GatheredPixels& pixels) {
+  const bool filters = request_->settings.denoise;
+  add("gather", [=, this, &m = memory_](Recorder& to) {
+    const SecondaryLightArguments replacing = {{m.gathers.points.address()},
+                                               {m.secondary_gathers.rays.address()},
+                                               {m.secondary_gathers.shaded.address()},
+                                               {m.secondary_gathers.direct.address()},
+                                               {m.secondary_gathers.field.address()},
+                                               {m.gathers.field.address()},
+                                               pixels.rays(),
+                                               0u};
+    to.run(kernels_.secondary_light, replacing, pixels.rays());
+    to.barrier();
+    // Light to be filtered is stored with that of the other bands
+    const std::uint64_t at = filters ? first_traced_pixel() : 0;
+    const FilteredPixelsRecord& kept = m.filtered.record;
+    const Vec3Array gathered{filters ? kept.gathered.address + at * sizeof(vec3)
+                                     : m.irradiance.address()};
+    const FloatArray variance{filters ? kept.gathered_variance.address + at * sizeof(float)
+                                      : m.gathered_variance.address()};
+    const Vec3Array excess{filters ? kept.excess.address + at * sizeof(vec3) : 0};
+    const GatherSumArguments summed = {{m.points.address()},
+                                       {m.surfaces.address()},
+                                       {m.gathers.rays.address()},
+                                       {m.gathers.shaded.address()},
+                                       {m.gathers.direct.address()},
+                                       {m.gathers.field.address()},
+                                       gathered,
+                                       variance,
+                                       {m.irradiance.address()},
+                                       excess,
+                                       pixels.first,
+                                       pixels.count,
+                                       pixels.rays_per_pixel,
+                                       filters ? 1u : 0u};
+    to.run(kernels_.gather_sum, summed, pixels.count);
+  });
+}
+
+/// Final gathering, some pixels at a time.
+void FramePassesVulkan::gather() {
+  const IrradianceField& field = *request_->sources.field;
+  const auto rays_per_pixel = static_cast<std::uint32_t>(request_->settings.gather_rays);
+  const std::uint32_t most = std::max(kGatherRays / rays_per_pixel, 1u);
+  FrameMemory& m = memory_;
+  reserve_gather(most, static_cast<std::size_t>(most) * rays_per_pixel);
+  const std::vector<ProbeGrid> grids = still_grids(field.grids());
+  reserve<ProbeGrid>(grids.size(), "grids", m.field_grids);
+  vulkan::write<ProbeGrid>(device_, grids, m.field_grids);
+  ShadeHitsSettings shading;
+  shading.cone_width = kHemisphereConeWidth / std::sqrt(static_cast<float>(rays_per_pixel));
+  shading.max_albedo = field.settings().max_albedo;
+  shading.salt = sample_;
+  shading.seed = request_->settings.seed;
+  shading.candidates = kGatherCandidates;
+  shading.follow_mirrors = true;
+  ShadeHitsSettings secondary_shading = shading;
+  secondary_shading.salt ^= kSecondarySalt;
+
+  for (std::uint32_t first = 0; first < pixels_; first += most) {
+    const GatheredPixels pixels{first, std::min(most, pixels_ - first), rays_per_pixel};
+    frame_->rays += pixels.rays();
+    draw_gathers(pixels);
+    light_gathers(m.gathers, pixels.rays(), m.gathering_indices, rays_per_pixel, shading);
+    draw_secondary_gathers(pixels, static_cast<int>(grids.size()));
+    light_gathers(m.secondary_gathers, pixels.rays(), m.secondary_indices, 1u, secondary_shading);
+    sum_gathers(pixels);
+  }
+}
+
+}  // namespace lambent

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes the rays of secondary gathers, one for each ray that gathers a pixel's light; those that
+// have none are not traced.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "gather/gather_math.h"
+#include "gather/gather_records.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  SecondaryRaysArguments args;
+};
+
+ProbeGrid fetch_grid(int volume) { return args.grids.at[volume]; }
+#include "field/lookup/spacing.inl.h"
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= args.count) return;
+  uint index = args.first_indices.at[i / args.rays_per_pixel] + i % args.rays_per_pixel;
+  args.indices.at[i] = index;
+  args.rays.at[i] = no_ray();
+  if (args.gathering_rays.at[i].mask == 0u || !reads_field(args.shaded.at[i])) return;
+  LitPointRecord point = args.points.at[i];
+  SecondaryRay drawn = secondary_ray(
+      point.position_ws, point.normal_ws, point.geometric_normal_ws, point.viewer_distance,
+      spacing_at(args.volumes, point.position_ws), index, args.sample_index, args.seed);
+  if (!drawn.traced) return;
+  args.rays.at[i] = RayRecord(drawn.origin_ws, 0.0f, drawn.direction_ws,
+                              uintBitsToFloat(kMissedDistanceBits), kRayGathers);
+}
