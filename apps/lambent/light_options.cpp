@@ -168,10 +168,13 @@ Expected<std::string> add_first_light(const LightOptions& options, const Camera&
   set_first_light(light, world, camera, scene);
   if (const auto changes = world.update(); !changes) return tl::unexpected(changes.error());
   if (options.light != "auto") return describe(light, scene, false);
-  return describe(light, scene, false) +
-         (light == FirstLight::sky
-              ? ", as it brings none (--light scene leaves it black)"
-              : ", as the scene brings none (--light, --sun and --sky choose)");
+  const std::string chosen = describe(light, scene, false);
+  if (light == FirstLight::sky)
+    return chosen + ", as it brings none (--light scene leaves it black)";
+  const bool emits = std::ranges::any_of(
+      scene.materials, [](const Material& m) { return m.emission != glm::vec3(0.0f); });
+  if (emits) return chosen + ", as what surfaces emit lights little of the view (--light scene)";
+  return chosen + ", as the scene brings none (--light, --sun and --sky choose)";
 }
 
 }  // namespace lambent::cli

@@ -10,6 +10,8 @@
 #include "first_picture/subject.h"
 #include "first_picture/survey.h"
 #include "lambent/first_picture.h"
+#include "raytracing/world_access.h"
+#include "scene/attributes.h"
 #include "shared/rays.h"
 
 namespace lambent {
@@ -29,6 +31,9 @@ constexpr float kMinLitByLamps = 0.9f, kMaxSignRadiance = 1.0f, kMinLampRatio = 
 // A court or a street under open sky is lit by its own emitters only if they light this share of
 // the view; otherwise it is shown by day.
 constexpr float kMinLitByNight = 0.9f;
+// Lamps in other rooms, whose light falls through doors, light a closed room if they reach this
+// share of the view directly or after a bounce: further bounces take their light everywhere.
+constexpr float kMinLitThroughDoors = 0.02f;
 // A camera is indoors where at least this share of the directions around it end at a surface.
 constexpr float kMinEnclosure = 0.75f;
 // A room is closed where at most this share of the sky is visible from what the camera sees.
@@ -81,6 +86,14 @@ bool has_lights_or_sky(const Scene& scene) {
   if (scene.environment.radiance != glm::vec3(0.0f)) return true;
   return std::any_of(scene.lights.begin(), scene.lights.end(),
                      [](const Light& light) { return light.intensity != glm::vec3(0.0f); });
+}
+
+/// Whether some surfaces emit more light than signs and screens do.
+bool has_emissive_lamps(const World& world) {
+  return std::ranges::any_of(emissive_of(world).entries(), [&](const EmitterRecord& emitter) {
+    const glm::vec3& emission = material_of(world.scene(), emitter.instance).emission;
+    return std::max({emission.x, emission.y, emission.z}) > kMaxSignRadiance;
+  });
 }
 
 /// Whether a scene is a piece of ground with things on it, rather than a thing.
@@ -219,6 +232,9 @@ FirstLight choose_first_light(const World& world, const Camera& camera) {
   }
   if (indoors) {
     const bool closed = light.sky_visibility <= kMaxSkyIndoors && !has_court(world, true);
+    if (closed && light.lit_by_emission >= kMinLitThroughDoors && has_emissive_lamps(world)) {
+      return FirstLight::scene;
+    }
     return closed ? FirstLight::lamps : FirstLight::sun;
   }
   return is_outdoors(world) ? FirstLight::sun : FirstLight::studio;

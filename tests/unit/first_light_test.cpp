@@ -154,6 +154,28 @@ TEST(FirstLight, IsWhatALampSendsBesideBrighterOnesBehindAWall) {
   EXPECT_EQ(choose_first_light(World(scene), camera), FirstLight::scene);
 }
 
+TEST(FirstLight, IsWhatLampsInOtherRoomsSendThroughADoor) {
+  // A corridor 2 m wide, and a lit room beyond a door at its far end, to the right
+  const auto corridor = [](float radiance) {
+    Scene scene = scene_of(
+        {box_mesh({-1, -0.2f, -10}, {6, 0, 0}), box_mesh({-1, 2.6f, -10}, {6, 2.8f, 0}),
+         box_mesh({-1.2f, 0, -10}, {-1, 2.6f, 0}), box_mesh({6, 0, -10}, {6.2f, 2.6f, 0}),
+         box_mesh({-1, 0, -10.2f}, {6, 2.6f, -10}), box_mesh({-1, 0, 0}, {6, 2.6f, 0.2f}),
+         box_mesh({1, 0, -8.5f}, {1.2f, 2.6f, 0}), box_mesh({1, 0, -10}, {1.2f, 2.6f, -9.3f}),
+         box_mesh({1.2f, 0, -7}, {6, 2.6f, -6.8f})});
+    scene.materials.push_back(test::lambert(glm::vec3(0.0f), glm::vec3(radiance)));
+    test::add(scene, test::quad({3.5f, 2.5f, -7.2f}, {1, 0, 0}, {0, 0, 0.3f}, 1));
+    return scene;
+  };
+  const Camera camera = look_at({0, 1.6f, -0.5f}, {0, 1.4f, -10}, 1.0f);
+  const Scene lit = corridor(60.0f), glowing = corridor(0.8f);
+  const World world(lit);
+  const ViewLight light = measure_view_light(world, sample_view(world, camera));
+  ASSERT_LT(light.lit_by_emission, 0.4f);
+  EXPECT_EQ(choose_first_light(world, camera), FirstLight::scene) << light.lit_by_emission;
+  EXPECT_EQ(choose_first_light(World(glowing), camera), FirstLight::lamps);
+}
+
 TEST(FirstLight, IsNotWhatASmallEmitterOnAnObjectSends) {
   Scene scene = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
   scene.materials.push_back(test::lambert(glm::vec3(0.0f), glm::vec3(5.0f)));
