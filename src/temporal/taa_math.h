@@ -56,6 +56,11 @@ const float kHiddenDepthShare = 0.01f;
 // place to a pixel, and a half each for the positions of both frames' samples in their pixels.
 const float kDepthSteps = 1.5f;
 
+// How far the interpolated history may lie outside the range of the nearest four pixels, as a share
+// of its ends. What negative weights of pixels farther out take off keeps edges sharp, but beside a
+// lamp it would be black dashes.
+const float kMaxOvershoot = 1.0f / 8.0f;
+
 // Makes the random numbers of jitter independent of those of other passes.
 const uint kJitterSalt = 0x4A495454u;
 

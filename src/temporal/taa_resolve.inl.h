@@ -62,7 +62,7 @@ LAMBENT_FN TaaNeighbourhood neighbourhood_at(TaaFrame frame, TaaPictureRef pictu
 }
 
 /// The history interpolated at a place between the centres of pixels [pixels], from sixteen of
-/// them.
+/// them. The result is about within the range of the nearest four, see kMaxOvershoot.
 LAMBENT_FN vec3 history_at(TaaFrame frame, TaaHistoryRef history, vec2 place) {
   vec2 corner = floor(place - vec2(0.5f));
   vec2 t = place - vec2(0.5f) - corner;
@@ -74,13 +74,21 @@ LAMBENT_FN vec3 history_at(TaaFrame frame, TaaHistoryRef history, vec2 place) {
   vec4 across = catmull_rom_weights(t.x);
   vec4 down = catmull_rom_weights(t.y);
   vec3 sum = vec3(0.0f);
+  vec3 least = vec3(infinity());
+  vec3 most = vec3(0.0f);
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i < 4; ++i) {
       ivec2 at = within_picture(frame, first.x - 1 + i, first.y - 1 + j);
-      sum += across[i] * down[j] * fetch_history(history, at).radiance;
+      vec3 radiance = fetch_history(history, at).radiance;
+      sum += across[i] * down[j] * radiance;
+      bool is_near = (i == 1 || i == 2) && (j == 1 || j == 2);
+      if (is_near) {
+        least = min(least, radiance);
+        most = max(most, radiance);
+      }
     }
   }
-  return max(sum, vec3(0.0f));
+  return clamp(sum, (1.0f - kMaxOvershoot) * least, (1.0f + kMaxOvershoot) * most);
 }
 
 LAMBENT_FN float depth_at(TaaFrame frame, TaaPictureRef picture, int x, int y) {

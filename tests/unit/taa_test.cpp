@@ -117,6 +117,19 @@ TEST(Taa, SmoothsEdgesUnderACameraThatWalks) {
   EXPECT_LT(filtered_error, 0.75 * raw_error);
 }
 
+TEST(Taa, DrawsNoDarkDashesBesideALampUnderACameraThatWalks) {
+  Scene scene = striped_wall(0);
+  scene.materials[2] = test::lambert(glm::vec3(0.0f), glm::vec3(900.0f));
+  const World world(scene);
+  Renderer renderer(world);
+  for (int i = 0; i < 12; ++i) {
+    const Image picture =
+        picture_of(renderer, camera_at(0.017f * static_cast<float>(i)), frame_settings(true));
+    const float darkest = *std::ranges::min_element(picture.pixels);
+    EXPECT_GT(darkest, 0.7f * 0.4f) << i;
+  }
+}
+
 /// Whether the bar is not seen in a pixel nor beside it, where its edge may lie.
 bool is_off_bar(const Image& truth, int x, int y) {
   for (int dy = -1; dy <= 1; ++dy) {
