@@ -51,6 +51,14 @@ bool filter_lobes(DenoiseView view, FilteredPixels& pixels, FilteredCoats& coats
   return true;
 }
 
+/// Filters what coats that mirrors show reflect.
+void filter_mirrored(DenoiseView view, FilteredPixels& pixels) {
+  view.positions_ws = pixels.mirrored_positions_ws;
+  view.depths = pixels.mirrored_depths;
+  view.normals_ws = pixels.mirrored.normals_ws;
+  filter_lobes(view, pixels, pixels.mirrored);
+}
+
 /// Filters what coats and clearcoats reflect, and highlights of emitters. As shadows may fall on
 /// highlights, pixels that differ by more than noise are not averaged.
 void filter_coats(DenoiseView view, FilteredPixels& pixels) {
@@ -58,6 +66,7 @@ void filter_coats(DenoiseView view, FilteredPixels& pixels) {
   const bool any_clearcoats = filter_lobes(view, pixels, pixels.clearcoats);
   view.normals_ws = pixels.normals_ws;
   const bool any_coats = filter_lobes(view, pixels, pixels.coats);
+  filter_mirrored(view, pixels);
   if (!(any_clearcoats || any_coats) || pixels.highlights.empty()) {
     pixels.filtered_highlights = pixels.highlights;
     return;
@@ -97,6 +106,37 @@ void keep_coats(const KeptBand& band, const GBuffer& surfaces, const CoatLight& 
       if (!coats.normals_ws.empty()) coats.normals_ws[pixel] = surface.normal_ws;
       coats.alphas[pixel] = surface.reflectance.alpha;
       coats.inverse_distances[pixel] = guide.inverse_distance;
+    }
+  });
+}
+
+/// Stores what the coats that a band's mirrors show reflect. `pixels`: the number of traced pixels.
+void keep_mirrored(const KeptBand& band, const CameraRecord& camera, std::size_t pixels,
+                   FilteredPixels& kept) {
+  const GBuffer& gbuffer = band.light.gbuffer;
+  FilteredCoats& coats = kept.mirrored;
+  const bool filters = band.light.filters_mirrored;
+  coats.resize(filters ? pixels : 0);
+  coats.normals_ws.resize(coats.light.size());
+  kept.mirrored_positions_ws.resize(coats.light.size());
+  kept.mirrored_depths.resize(coats.light.size());
+  if (!filters) return;
+  parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t pixel = band.first + i;
+      coats.light[pixel] = coats.excess[pixel] = vec3(0.0f);
+      coats.alphas[pixel] = 0.0f;
+      kept.mirrored_depths[pixel] = 0.0f;
+      const bool shows = gbuffer.hit[i] != 0 && !band.light.coats->mirrored.empty();
+      if (!shows || band.light.coats->mirrored[i].alpha <= 0.0f) continue;
+      const MirroredCoat& coat = band.light.coats->mirrored[i];
+      coats.light[pixel] = coat.light / coat.albedo;
+      coats.albedo[pixel] = shown_weight(gbuffer, band.light.fog, i) * coat.albedo;
+      coats.normals_ws[pixel] = coat.normal_ws;
+      coats.alphas[pixel] = coat.alpha;
+      coats.inverse_distances[pixel] = coat.inverse_seen_distance;
+      kept.mirrored_positions_ws[pixel] = coat.position_ws;
+      kept.mirrored_depths[pixel] = view_depth(camera, coat.position_ws);
     }
   });
 }
@@ -218,7 +258,9 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
       static_cast<std::size_t>(request.settings.width);
   const GBuffer& gbuffer = light.gbuffer;
   const bool emitters = !light.direct.emitters.empty(), gathered = light.gathered != nullptr;
+  const CameraRecord camera = camera_record(request.camera, 1, 1);
   keep_all_coats({light, first}, count, pixels);
+  keep_mirrored({light, first}, camera, count, pixels);
   if (emitters) {
     keep_highlights(light, first, count, pixels);
   } else {
@@ -252,7 +294,6 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
        pixels.gathered_variance);
   keep(gathered ? Colors(*light.looked_up) : Colors(), first, count, pixels.looked_up);
 
-  const CameraRecord camera = camera_record(request.camera, 1, 1);
   parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t pixel = first + i;
@@ -334,6 +375,7 @@ void show_filtered(const FilteredPixels& pixels, const ShownPixels& shown, float
       }
       show_coat(pixels.coats, i, pixel, share, layers);
       show_coat(pixels.clearcoats, i, pixel, share, layers);
+      show_coat(pixels.mirrored, i, pixel, share, layers);
       if (pixels.filtered_gathered.empty() || pixels.received_weight[i] == 0.0f) continue;
       const vec3 irradiance = share * pixels.filtered_gathered[i];
       const vec3 indirect = pixels.indirect_albedo[i] * irradiance;

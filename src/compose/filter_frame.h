@@ -43,6 +43,10 @@ struct FilteredPixels {
   std::vector<glm::vec3> emitter_albedo;  ///< Includes the factor emitter_levels.
   std::vector<float> emitter_levels;      ///< See filtered_level().
   FilteredCoats coats, clearcoats;
+  FilteredCoats mirrored;  ///< The coats that mirrors show.
+  // Where their mirror images are
+  std::vector<glm::vec3> mirrored_positions_ws;
+  std::vector<float> mirrored_depths;   ///< [m]; 0: the pixel shows none.
   std::vector<glm::vec3> to_viewer_ws;  ///< Empty where there are no coats.
   // Specular light of emitters, divided by filtered_coat_albedo() where rays light the coat. Its
   // lobes have a width of highlight_alpha()
@@ -67,6 +71,7 @@ struct BandToFilter {
   const CoatLight* coats = nullptr;                   ///< Null: no coat has rays.
   bool filters_clearcoats = false;                    ///< Requires `coats`.
   const ClearcoatsShown* clearcoats = nullptr;        ///< Null: the band has none.
+  bool filters_mirrored = false;                      ///< Requires `coats`.
   const TransmittedLight* transmitted = nullptr;      ///< Null: no surface transmits light.
   std::span<const glm::vec4> fog = {};  ///< See fog_along(); one a pixel; empty: there is no fog.
 };

@@ -33,6 +33,12 @@ struct FilteredPixelsRecord {
   Vec3Array clearcoat_albedo;
   Vec3Array clearcoat_normals_ws;
   LobeGuideArray clearcoat_lobes;
+  Vec3Array mirrored;  ///< Like the coats' arrays, but with the places of mirror images.
+  Vec3Array mirrored_albedo;
+  Vec3Array mirrored_positions_ws;
+  Vec3Array mirrored_normals_ws;
+  FloatArray mirrored_depths;
+  LobeGuideArray mirrored_lobes;
   Vec3Array highlights;
   Vec3Array highlight_albedo;
   LobeGuideArray highlight_lobes;
@@ -40,6 +46,7 @@ struct FilteredPixelsRecord {
   Vec3Array filtered_emitters;
   Vec3Array filtered_coats;
   Vec3Array filtered_clearcoats;
+  Vec3Array filtered_mirrored;
   Vec3Array filtered_highlights;
 };
 LAMBENT_DEVICE_ARRAY(FilteredPixelsArray, FilteredPixelsRecord, 8)
@@ -81,6 +88,20 @@ struct KeepClearcoatsArguments {
   uint padding;
 };
 
+/// Stores what the coats that a band's mirrors show reflect.
+struct KeepMirroredArguments {
+  PixelSurfaceArray surfaces;
+  MirroredCoatArray mirrored;
+  Vec4Array fog;  ///< See fog_along(); read where has_fog is 1.
+  FilteredPixelsArray pixels;
+  vec3 camera_ws;
+  vec3 camera_back;  ///< Unit; against the direction of view.
+  uint first;        ///< First pixel of the band among the traced pixels.
+  uint count;
+  uint has_fog;
+  uint padding;
+};
+
 /// Adds filtered light to layers.
 struct AddFilteredArguments {
   FilteredPixelsArray pixels;
@@ -88,11 +109,11 @@ struct AddFilteredArguments {
   uint first;  ///< First of the shown pixels among the traced ones.
   uint count;
   float share;
-  uint emitters;  ///< 1: add this kind of light, as for the next three.
+  uint emitters;  ///< 1: add this kind of light, as for the next four.
   uint gathered;
   uint coats;
   uint clearcoats;
-  uint padding;
+  uint mirrored;
 };
 
 LAMBENT_END

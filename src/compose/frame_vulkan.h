@@ -41,6 +41,7 @@
 #include "shaders/gather_sum_comp.h"
 #include "shaders/keep_behind_comp.h"
 #include "shaders/keep_clearcoats_comp.h"
+#include "shaders/keep_mirrored_comp.h"
 #include "shaders/keep_pixels_comp.h"
 #include "shaders/keep_through_comp.h"
 #include "shaders/motion_comp.h"
@@ -100,11 +101,13 @@ struct FrameKernels {
   vulkan::Kernel fog_pixels{device, shaders::fog_pixels_comp(), "fog of pixels"};
   vulkan::Kernel compose{device, shaders::compose_comp(), "compose"};
   vulkan::Kernel keep_pixels{device, shaders::keep_pixels_comp(), "keep pixels"};
+  vulkan::Kernel keep_mirrored{device, shaders::keep_mirrored_comp(), "keep coats in mirrors"};
   vulkan::Kernel keep_clearcoats{device, shaders::keep_clearcoats_comp(), "keep clearcoats"};
   vulkan::Kernel add_filtered{device, shaders::add_filtered_comp(), "add filtered"};
 };
 
-/// Light that is filtered, of the traced rows: 392 bytes a pixel. See FilteredPixelsRecord.
+/// Light that is filtered, of the traced rows: 392 bytes a pixel, and 96
+/// more where mirrors may show coats. See FilteredPixelsRecord.
 struct FilteredBuffers {
   FilteredPixelsRecord record;
   vulkan::Buffer addresses;  ///< Holds `record`.
@@ -117,6 +120,8 @@ struct FilteredBuffers {
   vulkan::Buffer highlights, highlight_albedo, highlight_lobes;
   vulkan::Buffer filtered_gathered, filtered_emitters, filtered_coats, filtered_highlights;
   vulkan::Buffer filtered_clearcoats;
+  vulkan::Buffer mirrored, mirrored_albedo, mirrored_positions_ws, mirrored_normals_ws;
+  vulkan::Buffer mirrored_depths, mirrored_lobes, filtered_mirrored;
 };
 
 /// Light seen through surfaces, which is filtered, of the traced rows: 216 bytes a pixel.
@@ -187,7 +192,7 @@ struct FrameMemory {
   vulkan::Buffer scene_before, instances_before, positions_before;
   // Pixels, rays and lists of paths, for the rows around a band whose coats are lit by rays.
   // Bounces use the two lists in turn
-  vulkan::Buffer coats, coat_guides, coat_points, coat_surfaces, coat_rays;
+  vulkan::Buffer coats, coat_guides, coat_points, coat_surfaces, coat_rays, mirrored;
   PathBuffers path_lists[2];
   PathBuffers forks;  // reflected branches, traced later
   vulkan::Buffer path_hits, path_points, path_surfaces, path_diffuse, path_specular;
@@ -272,7 +277,7 @@ class FramePassesVulkan final : public FramePasses {
   void sum_gathers(const GatheredPixels& pixels);
   /// Lights the coats of the rows around the band, which see_around_band() has filled in, by rays;
   /// see Glossy::reflect. `sky`: see reflect_band(). Returns whether there are any rays.
-  bool trace_coats(const Band& around, std::uint32_t seed, const Buffer& sky);
+  bool trace_coats(const Band& around, CoatKind kind, const Buffer& sky);
   /// The rows whose rays the band's coats reflect.
   Band rows_around_band() const;
   void see_around_band(const Band& around);
@@ -286,7 +291,7 @@ class FramePassesVulkan final : public FramePasses {
   bool follow_all(std::uint32_t first_bounce, std::uint32_t first_index, std::uint32_t salt);
   void follow_paths(std::uint32_t paths, std::uint32_t bounce, std::uint32_t first_index,
                     std::uint32_t salt);
-  void reuse_coat_rays(const Band& around, const Buffer& sky);
+  void reuse_coat_rays(const Band& around, const Buffer& sky, bool keeps_mirrored);
   /// Adds the light of sources behind rough surfaces, see Glossy::sample_lights_behind: of pixels,
   /// or of the paths in a list.
   void sample_lights_behind(Recorder& to, const DevicePixels& seen, std::uint32_t count, uint salt,
@@ -306,6 +311,7 @@ class FramePassesVulkan final : public FramePasses {
   void finish_motion(LayeredImage& image);
   std::uint32_t emitter_draws() const;
   bool filters_coats() const;
+  void keep_mirrored();
   void begin_filter();
   void keep_pixels();
   /// First pixel of the band among the traced pixels.

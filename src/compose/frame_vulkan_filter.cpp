@@ -55,6 +55,14 @@ void FramePassesVulkan::begin_filter() {
   r.clearcoat_normals_ws.address = room(clearcoated, sizeof(vec3), f.clearcoat_normals_ws);
   r.clearcoat_lobes.address = room(clearcoated, sizeof(LobeGuide), f.clearcoat_lobes);
   r.filtered_clearcoats.address = room(clearcoated, sizeof(vec3), f.filtered_clearcoats);
+  const std::size_t mirrored = filters_mirrored_coats(*request_) ? pixels : 0;
+  r.mirrored.address = room(mirrored, sizeof(vec3), f.mirrored);
+  r.mirrored_albedo.address = room(mirrored, sizeof(vec3), f.mirrored_albedo);
+  r.mirrored_positions_ws.address = room(mirrored, sizeof(vec3), f.mirrored_positions_ws);
+  r.mirrored_normals_ws.address = room(mirrored, sizeof(vec3), f.mirrored_normals_ws);
+  r.mirrored_depths.address = room(mirrored, sizeof(float), f.mirrored_depths);
+  r.mirrored_lobes.address = room(mirrored, sizeof(LobeGuide), f.mirrored_lobes);
+  r.filtered_mirrored.address = room(mirrored, sizeof(vec3), f.filtered_mirrored);
   r.highlights.address = room(lit, sizeof(vec3), f.highlights);
   r.highlight_albedo.address = room(lit, sizeof(vec3), f.highlight_albedo);
   r.highlight_lobes.address = room(lit, sizeof(LobeGuide), f.highlight_lobes);
@@ -100,7 +108,30 @@ void FramePassesVulkan::keep_pixels() {
                                            has};
     to.run(kernels_.keep_pixels, arguments, pixels_);
   });
+  if (filters_mirrored_coats(*request_)) keep_mirrored();
   if (filters_through(*request_)) keep_through();
+}
+
+/// Stores what the coats that the band's mirrors show reflect.
+void FramePassesVulkan::keep_mirrored() {
+  const std::uint64_t before =
+      static_cast<std::uint64_t>(band_.first_row - rows_around_band().first_row) *
+      static_cast<std::uint64_t>(request_->settings.width);
+  add("compose", [this, before](Recorder& to) {
+    const glm::mat4& view = request_->camera.world_from_view;
+    const KeepMirroredArguments arguments = {
+        {memory_.surfaces.address()},
+        {memory_.mirrored.address() + before * sizeof(MirroredCoat)},
+        {memory_.pixel_fog.address()},
+        {memory_.filtered.addresses.address()},
+        vec3(view[3]),
+        normalize(vec3(view[2])),
+        first_traced_pixel(),
+        pixels_,
+        has_fog(*request_) ? 1u : 0u,
+        0u};
+    to.run(kernels_.keep_mirrored, arguments, pixels_);
+  });
 }
 
 /// Filters what coats and clearcoats reflect from rays, and highlights of emitters.
@@ -120,6 +151,15 @@ void FramePassesVulkan::denoise_coats(const DenoiseViewOnDevice& view) {
       of_clearcoats.normals_ws = r.clearcoat_normals_ws;
       of_clearcoats.lobes = r.clearcoat_lobes;
       filter(of_clearcoats, r.clearcoats, r.clearcoat_excess, r.filtered_clearcoats);
+    }
+    if (filters_mirrored_coats(*request_)) {
+      DenoiseViewOnDevice of_images = view;
+      of_images.positions_ws = r.mirrored_positions_ws;
+      of_images.normals_ws = r.mirrored_normals_ws;
+      of_images.depths = r.mirrored_depths;
+      of_images.lobes = r.mirrored_lobes;
+      memory_.denoiser.record(to, of_images, {r.mirrored}, geometric_denoising(),
+                              r.filtered_mirrored);
     }
     if (emitter_draws() == 0) return;
     of_lobes.lobes = r.highlight_lobes;
@@ -175,7 +215,7 @@ void FramePassesVulkan::denoise(float share) {
                                             gathered ? 1u : 0u,
                                             coats ? 1u : 0u,
                                             filters_clearcoats(*request_) ? 1u : 0u,
-                                            0u};
+                                            filters_mirrored_coats(*request_) ? 1u : 0u};
     to.run(kernels_.add_filtered, arguments, static_cast<std::uint32_t>(shown.count));
   });
   if (through) denoise_through(by_shading, shown, share);

@@ -3,7 +3,7 @@
 #ifndef LAMBENT_COMPOSE_PIXEL_MATH_H
 #define LAMBENT_COMPOSE_PIXEL_MATH_H
 
-#include "glossy/glossy_math.h"
+#include "glossy/path_math.h"
 #include "raytracing/shaded_hit.h"
 #include "scene/coverage.h"
 #include "shared/brdf.h"
@@ -70,13 +70,6 @@ LAMBENT_FN FilteredEmitter filtered_emitter(Reflectance surface, vec3 reflected,
 LAMBENT_FN float filtered_variance(FilteredEmitter emitter, float variance) {
   // The square of the inverse may exceed the range of floats
   return emitter.inverse * (emitter.inverse * variance);
-}
-
-/// The albedo that a coat's light from rays is divided by before it is filtered, where rays supply
-/// the share `coat_share` of its light.
-LAMBENT_FN vec3 filtered_coat_albedo(Reflectance surface, float n_dot_v, float coat_share) {
-  vec3 albedo = specular_albedo(coat_under_layers(surface, n_dot_v), n_dot_v);
-  return coat_share * max(albedo, vec3(kLeastFilteredAlbedo));
 }
 
 /// The light of a coat that is filtered apart from its excess. Rounding may make the excess the

@@ -22,6 +22,9 @@ struct CoatRay {
   /// Of kStageOwnCoat: emission_luminance() of the emitter that it found [W/(m^2 sr)]; of the sky,
   /// minus the density with which samples find it [1/sr]. See sampled_density().
   float apart_luminance;
+  /// Light that the coat of what a mirror shows reflects, see MirroredCoat [W/(m^2 sr)]. `radiance`
+  /// does not include it.
+  vec3 mirrored;
 };
 LAMBENT_DEVICE_ARRAY(CoatRayArray, CoatRay, 4)
 
@@ -32,17 +35,24 @@ const uint kStageOther = 0u;
 /// It left the pixel's coat, and no other coat has reflected it. The emission that it hits, or the
 /// bright part of the sky, is stored apart, as the pixel's direct light samples it, too.
 const uint kStageOwnCoat = 1u;
+/// It does what kStageOwnCoat says, and that coat is a mirror, see MirroredCoat.
+const uint kStageOwnMirror = 2u;
+/// It does what kStageOwnMirror says, and is at a MirroredCoat. What that reflects of direct light
+/// is stored in CoatRay::mirrored.
+const uint kStageAtMirroredCoat = 3u;
 /// It came through surfaces alone. Nothing is stored apart. Where one is rough, it samples lights
 /// behind it.
-const uint kStageThroughGlass = 2u;
+const uint kStageThroughGlass = 4u;
 /// It came through glass to the first opaque surface. Nothing is stored apart.
-const uint kStageBehindGlass = 3u;
+const uint kStageBehindGlass = 5u;
 /// It left the coat of that surface, and has hit nothing but glass since. All light is stored
 /// apart.
-const uint kStageCoatBehindGlass = 4u;
+const uint kStageCoatBehindGlass = 6u;
 /// It left the coat of that surface, and has hit something else than glass. All light is stored
 /// apart.
-const uint kStageBeyondCoat = 5u;
+const uint kStageBeyondCoat = 7u;
+/// It left a MirroredCoat. All light is stored in CoatRay::mirrored.
+const uint kStageBeyondMirroredCoat = 8u;
 
 // Values of CoatPath::fork: whether a path splits at glass into a refracted and a reflected branch.
 /// It does not split: at each surface one of the two directions is drawn at random.
@@ -69,12 +79,48 @@ struct CoatPath {
 };
 LAMBENT_DEVICE_ARRAY(CoatPathArray, CoatPath, 4)
 
+// Widest lobe of a mirror, that of roughness 0.1. The filter cannot spread what such a coat
+// reflects over more than a pixel or two: the picture in it would blur.
+const float kMirrorAlpha = 0.01f;
+
+/// A coat that a pixel's mirror shows. A mirrored picture of it is as noisy as the coat itself:
+/// what it reflects is filtered over its own lobe, as if the surface stood behind the mirror.
+struct MirroredCoat {
+  // Of the surface; once the pixel's light is known, of its mirror image
+  vec3 position_ws;
+  vec3 normal_ws;
+  float alpha;          ///< GGX width of its lobe; 0: the mirror shows no such coat.
+  vec3 albedo;          ///< filtered_coat_albedo()
+  float seen_distance;  ///< From it to what it reflects [m]; infinite: the sky, or nothing.
+  // Known once the light of all rays is
+  vec3 light;                   ///< What it reflects by rays, as the mirror shows it [W/(m^2 sr)].
+  float inverse_seen_distance;  ///< See seen_inverse_distance() [1/m].
+};
+LAMBENT_DEVICE_ARRAY(MirroredCoatArray, MirroredCoat, 4)
+
+/// The record of a pixel whose mirror shows no such coat.
+LAMBENT_FN MirroredCoat no_mirrored_coat() {
+  MirroredCoat none = {vec3(0.0f), vec3(0.0f), 0.0f, vec3(0.0f), infinity(), vec3(0.0f), 0.0f};
+  return none;
+}
+
+/// The distance to what the coat in a pixel's mirror reflects [m]; below 0 where there is none.
+LAMBENT_FN float seen_distance(MirroredCoat coat) {
+  return coat.alpha > 0.0f ? coat.seen_distance : -1.0f;
+}
+
 /// CoatPath::pdf of paths through surfaces behind which no lights are sampled: no other estimator
 /// finds the emitters that they meet.
 const float kNoLightSampling = 1e30f;
 
 /// Least distance to hits [m], so that its reciprocal is finite.
 const float kLeastSeenDistance = 1e-4f;
+
+/// A ray that was not drawn; see CoatRay::distance.
+LAMBENT_FN CoatRay no_coat_ray(float distance) {
+  CoatRay none = {vec3(0.0f, 0.0f, 1.0f), distance, vec3(0.0f), 0.0f, vec3(0.0f), 0.0f, vec3(0.0f)};
+  return none;
+}
 
 /// The distance to the hit of a pixel's ray [m]; below 0 where there is no ray.
 LAMBENT_FN float seen_distance(CoatRay ray) {

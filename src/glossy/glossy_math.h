@@ -229,6 +229,19 @@ LAMBENT_FN vec3 reflected_own_ray(CoatReceiver at) {
   return alone.light + alone.emission;
 }
 
+/// The record of the coat that a receiver's mirror shows, with its light and its mirror image.
+/// `share`: that of the mirror's light which comes from rays.
+LAMBENT_FN MirroredCoat mirrored_light(CoatReceiver at, float share, MirroredCoat coat) {
+  if (coat.alpha <= 0.0f) return coat;
+  at.own.radiance = at.own.mirrored;
+  at.own.apart = vec3(0.0f);
+  coat.light = share * reflected_own_ray(at);
+  vec3 across = at.lobe.normal_ws;
+  coat.position_ws -= 2.0f * dot(coat.position_ws - at.lobe.position_ws, across) * across;
+  coat.normal_ws -= 2.0f * dot(coat.normal_ws, across) * across;
+  return coat;
+}
+
 /// Radiance that a receiver reflects of the rays around it.
 struct ReflectedRays {
   vec3 light;   ///< All of it; negative where there is no ray.

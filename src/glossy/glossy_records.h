@@ -31,8 +31,9 @@ struct CoatRaysArguments {
   uint rows;       ///< Every `rows`-th row has rays.
   uint sample_index;
   uint seed;
-  uint emitter_samples;  ///< Samples of the pixels' own direct light.
-  uint padding;
+  uint emitter_samples;        ///< Samples of the pixels' own direct light.
+  uint keeps_mirrored;         ///< 1: what coats in mirrors reflect is stored separately.
+  MirroredCoatArray mirrored;  ///< Written where keeps_mirrored is 1.
 };
 
 /// Draws the rays that pixels send through their surfaces.
@@ -60,8 +61,9 @@ struct CoatHitsArguments {
   UintArray pixels;
   QueryArray queries;
   CoatRayArray coat_rays;
-  FloatArray coat_distances;  ///< For paths that gather the light of coats behind glass.
-  uint count;                 ///< Number of paths.
+  FloatArray coat_distances;   ///< For paths that gather the light of coats behind glass.
+  MirroredCoatArray mirrored;  ///< For paths from mirrors.
+  uint count;                  ///< Number of paths.
   uint bounce;
   uint first_index;  ///< Index of the first pixel in the picture.
   uint has_field;    ///< 1: there is a field to look up.
@@ -131,14 +133,20 @@ struct ClearcoatLightArguments {
   uint has_rays;
 };
 
+// Bits of CoatReuseArguments::has.
+const uint kReflectsSky = 1u;    ///< `sky` is added.
+const uint kFindsGuides = 2u;    ///< `guides` are written.
+const uint kKeepsMirrored = 4u;  ///< `mirrored` is brought up to date.
+
 /// Computes the light that the band's pixels reflect from the rays around them.
 struct CoatReuseArguments {
   LitPointArray points;
   PixelSurfaceArray surfaces;
   CoatRayArray coat_rays;
   Vec4Array light;        ///< See CoatLight; one a pixel of the band.
-  CoatGuideArray guides;  ///< See CoatLight; written where `finds_guides` is 1.
-  Vec3Array sky;          ///< See reflect_band(); one a pixel, read where `has_sky` is 1.
+  CoatGuideArray guides;  ///< See CoatLight; one a pixel of the band.
+  MirroredCoatArray mirrored;
+  Vec3Array sky;  ///< See reflect_band(); one a pixel of the band.
   vec3 camera_ws;
   vec3 camera_back;   ///< Unit; against the direction of view.
   float pixel_width;  ///< [m], at a distance of one metre; orthographic cameras: everywhere.
@@ -150,9 +158,9 @@ struct CoatReuseArguments {
   uint height;
   uint rows;
   uint sample_index;
-  uint has_sky;
-  uint finds_guides;
+  uint has;              ///< kReflectsSky, kFindsGuides, kKeepsMirrored.
   uint emitter_samples;  ///< Samples of the pixels' own direct light.
+  uint padding;
 };
 
 LAMBENT_END

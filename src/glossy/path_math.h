@@ -86,7 +86,9 @@ const float kAlwaysReflected = -1.0f, kNeverReflected = 1.0f;
 
 /// Adds light at a path's hit, without its emission, to the light of its pixel's ray.
 LAMBENT_FN void add_radiance(CoatPath path, vec3 light, LAMBENT_INOUT(CoatRay) ray) {
-  if (path.stage >= kStageCoatBehindGlass) {
+  if (path.stage == kStageBeyondMirroredCoat) {
+    ray.mirrored += path.throughput * light;
+  } else if (path.stage >= kStageCoatBehindGlass) {
     ray.apart += path.throughput * light;
   } else {
     ray.radiance += path.throughput * light;
@@ -102,13 +104,55 @@ LAMBENT_FN void meet_light(CoatPath path, vec3 radiance, float emitted,
   if (radiance == vec3(0.0f)) return;
   // A ray through glowing glass can meet two lights; the first decides
   bool is_first = ray.apart == vec3(0.0f);
-  if (path.stage == kStageOwnCoat && (is_first || ray.apart_luminance == emitted)) {
+  bool is_own = path.stage == kStageOwnCoat || path.stage == kStageOwnMirror;
+  if (is_own && (is_first || ray.apart_luminance == emitted)) {
     ray.apart += path.throughput * radiance;
     ray.apart_luminance = emitted;
   } else {
     float density = sampled_density(emitted, path.density_scale);
     add_radiance(path, found_light_weight(path.pdf, density) * radiance, ray);
   }
+}
+
+/// The albedo that a coat's light from rays is divided by before it is filtered, where rays supply
+/// the share `coat_share` of its light.
+LAMBENT_FN vec3 filtered_coat_albedo(Reflectance surface, float n_dot_v, float coat_share) {
+  vec3 albedo = specular_albedo(coat_under_layers(surface, n_dot_v), n_dot_v);
+  return coat_share * max(albedo, vec3(kLeastFilteredAlbedo));
+}
+
+/// The stage in which a pixel's coat of this width starts its path. `keeps_mirrored`: what coats in
+/// mirrors reflect is filtered.
+LAMBENT_FN uint first_stage(float alpha, bool keeps_mirrored) {
+  return keeps_mirrored && alpha <= kMirrorAlpha ? kStageOwnMirror : kStageOwnCoat;
+}
+
+/// Describes the coat that a path's hit shows in the pixel's mirror, if the path goes on from it
+/// with `shares`; `further`: the distance from the hit before [m].
+LAMBENT_FN void meet_mirrored_coat(Reflectance surface, CoatShares shares, vec3 position_ws,
+                                   vec3 normal_ws, float n_dot_v, float further,
+                                   LAMBENT_INOUT(CoatPath) path, LAMBENT_INOUT(MirroredCoat) coat) {
+  if (path.stage == kStageBeyondMirroredCoat && left_scene(coat.seen_distance)) {
+    coat.seen_distance = further;
+  }
+  if (path.stage != kStageOwnMirror) return;
+  if (surface.alpha <= kMirrorAlpha || shares.coat <= 0.0f) return;
+  coat.position_ws = position_ws;
+  coat.normal_ws = normal_ws;
+  coat.alpha = surface.alpha;
+  coat.albedo = filtered_coat_albedo(surface, n_dot_v, 1.0f);
+  path.stage = kStageAtMirroredCoat;
+}
+
+/// Adds direct light at a path's hit. What a coat in the pixel's mirror reflects of it is stored
+/// with the rest of its light.
+LAMBENT_FN void add_direct_light(CoatPath path, vec3 diffuse, vec3 specular,
+                                 LAMBENT_INOUT(CoatRay) ray) {
+  if (path.stage == kStageAtMirroredCoat) {
+    ray.mirrored += path.throughput * specular;
+    specular = vec3(0.0f);
+  }
+  add_radiance(path, diffuse + specular, ray);
 }
 
 /// Adds the emission at a path's hit to the light of its pixel's ray. `emitted`:
@@ -195,7 +239,9 @@ LAMBENT_FN NextRay extend_by_reflection(Reflectance coat, CoatShares shares, vec
   path.alpha = coat.alpha;
   // Only the coat's light is filtered over the coat's lobe
   bool filtered = path.stage == kStageBehindGlass && !from_clearcoat;
-  if (path.stage <= kStageBehindGlass) {
+  if (path.stage == kStageAtMirroredCoat && !from_clearcoat) {
+    path.stage = kStageBeyondMirroredCoat;
+  } else if (path.stage <= kStageBehindGlass) {
     path.stage = filtered ? kStageCoatBehindGlass : kStageOther;
   }
   next.direction_ws = drawn.direction_ws;
@@ -215,6 +261,7 @@ LAMBENT_FN NextRay extend_through_glass(Transmission through, Reflectance coat, 
   ThroughDraw drawn = draw_through(through, coat, normal_ws, to_viewer_ws, u);
   path.throughput *= drawn.weight;
   path.alpha = max(path.alpha, through.alpha);
+  if (path.stage == kStageAtMirroredCoat) path.stage = kStageOwnMirror;
   if (path.stage == kStageThroughGlass && !goes_straight(through)) {
     path.pdf = drawn.pdf > 0.0f ? drawn.pdf : kNoLightSampling;
     path.density_scale = drawn.pdf > 0.0f ? density_scale : 0.0f;

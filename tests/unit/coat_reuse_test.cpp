@@ -49,7 +49,11 @@ FlatView view_of(float alpha, uint sample) {
       const CoatDraw drawn = draw_coat_ray(view.metal, make_frame(lobe.normal_ws),
                                            lobe.to_viewer_ws, coat_uniforms({x, y}, sample, 1, 1));
       const float distance = kWall / drawn.direction_ws.z;
-      view.rays.push_back({drawn.direction_ws, distance, vec3(1.0f), drawn.pdf, vec3(0.0f), 0.0f});
+      CoatRay ray = no_coat_ray(distance);
+      ray.direction_ws = drawn.direction_ws;
+      ray.radiance = vec3(1.0f);
+      ray.pdf = drawn.pdf;
+      view.rays.push_back(ray);
     }
   }
   return view;

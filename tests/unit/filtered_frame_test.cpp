@@ -12,6 +12,7 @@
 #include "support/box_behind_a_pane.h"
 #include "support/field_scenes.h"
 #include "support/hand_made.h"
+#include "support/metal_in_a_mirror.h"
 
 namespace lambent::filtered_frame_test {
 namespace {
@@ -197,6 +198,10 @@ TEST(FilteredFrame, ShowsRoughCoatsWithLessNoiseAndAllOfTheirLight) {
 
 TEST(FilteredFrame, ShowsRoughClearcoatsWithLessNoiseAndAllOfTheirLight) {
   expect_less_noise_in_reflections(LitStage(varnished_cornell()));
+}
+
+TEST(FilteredFrame, ShowsRoughCoatsInMirrorsWithLessNoiseAndAllOfTheirLight) {
+  expect_less_noise_in_reflections(LitStage(test::metal_in_a_mirror()));
 }
 
 // Just above a lamp's horizon rounding alone decides how little light arrives there. One pixel

@@ -71,7 +71,7 @@ class RayReuseTest : public testing::Test {
   }
 
   CoatRay ray_of(const GBuffer& pixels, std::size_t i) {
-    CoatRay ray{vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f), 0.0f};
+    CoatRay ray = no_coat_ray(infinity());
     if (pixels.coat_shares[i].coat <= 0.0f || uniform() < 0.1f) return ray;
     const Surface& surface = pixels.surfaces[i];
     const CoatDraw drawn = draw_coat_ray(surface.reflectance, make_frame(surface.normal_ws),
@@ -137,7 +137,7 @@ TEST_F(RayReuseTest, SumsUpInLanesWhatOnePixelAfterTheOtherDoes) {
                                     sample};
       const GlossyRows all{picture.pixels, 0};
       CoatLight light;
-      RayReuse().reflect(settings, {&all, 1}, all, picture.rays, light);
+      RayReuse().reflect(settings, {&all, 1}, all, picture.rays, {}, light);
       int reflecting = 0, exceeding = 0;
       for (int y = 0; y < kHeight; ++y) {
         for (int x = 0; x < kWidth; ++x) {
@@ -165,7 +165,7 @@ TEST_F(RayReuseTest, SumsUpInLanesWhatOnePixelAfterTheOtherDoes) {
       raw.denoise = false;
       CoatLight unfiltered;
       RayReuse().reflect({world, nullptr, raw, settings.camera, sample}, {&all, 1}, all,
-                         picture.rays, unfiltered);
+                         picture.rays, {}, unfiltered);
       EXPECT_EQ(unfiltered.light, light.light);
       EXPECT_TRUE(unfiltered.guides.empty());
     }

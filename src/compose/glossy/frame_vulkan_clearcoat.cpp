@@ -31,8 +31,8 @@ void FramePassesVulkan::light_clearcoats() {
         {memory_.coat_points.address()}, {memory_.coat_surfaces.address()}, all, 0u};
     to.run(kernels_.show_clearcoats, shown, all);
   });
-  const bool has_rays = traces && trace_coats(around, clearcoat_seed(request_->settings.seed),
-                                              memory_.sky_in_clearcoats);
+  const bool has_rays =
+      traces && trace_coats(around, CoatKind::clearcoat, memory_.sky_in_clearcoats);
   const std::uint64_t points = memory_.coat_points.address() + before * sizeof(LitPointRecord);
   const std::uint64_t surfaces =
       memory_.coat_surfaces.address() + before * sizeof(PixelSurfaceRecord);

@@ -34,7 +34,7 @@ void FramePassesVulkan::glossy() {
   if (traces_coats(*request_) && has_coats(request_->world.scene())) {
     const Band around = rows_around_band();
     see_around_band(around);
-    if (trace_coats(around, request_->settings.seed, memory_.sky)) ray_light_flags_ |= kHasCoats;
+    if (trace_coats(around, CoatKind::coat, memory_.sky)) ray_light_flags_ |= kHasCoats;
   }
   look_up_coats(memory_.points.address(), memory_.surfaces.address());
 }
@@ -130,11 +130,15 @@ std::uint32_t FramePassesVulkan::count_paths(const PathBuffers& list) {
   return count;
 }
 
-bool FramePassesVulkan::trace_coats(const Band& around, std::uint32_t seed, const Buffer& sky) {
+bool FramePassesVulkan::trace_coats(const Band& around, CoatKind kind, const Buffer& sky) {
+  const std::uint32_t seed = kind == CoatKind::clearcoat ? clearcoat_seed(request_->settings.seed)
+                                                         : request_->settings.seed;
+  const bool keeps_mirrored = kind == CoatKind::coat && filters_mirrored_coats(*request_);
   const auto width = static_cast<std::uint32_t>(request_->settings.width);
   const int first_row = around.first_row;
   const std::uint32_t pixels = static_cast<std::uint32_t>(around.rows) * width;
   const std::uint32_t first_index = static_cast<std::uint32_t>(first_row) * width;
+  reserve<MirroredCoat>(keeps_mirrored ? pixels : 0, "coats in mirrors", memory_.mirrored);
   add("glossy", [=, this](Recorder& to) {
     FrameMemory& m = memory_;
     to.fill(m.path_lists[0].count, 0u);
@@ -150,13 +154,14 @@ bool FramePassesVulkan::trace_coats(const Band& around, std::uint32_t seed, cons
                                      sample_,
                                      seed,
                                      static_cast<uint>(request_->settings.emissive_samples),
-                                     0u};
+                                     keeps_mirrored ? 1u : 0u,
+                                     {m.mirrored.address()}};
     to.run(kernels_.coat_rays, drawn, pixels);
   });
   path_pass_ = "glossy";
   path_seed_ = seed;
   if (!follow_all(1, first_index, sample_)) return false;
-  reuse_coat_rays(around, sky);
+  reuse_coat_rays(around, sky, keeps_mirrored);
   return true;
 }
 
@@ -212,6 +217,7 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
                                       {m.path_queries.address()},
                                       {m.coat_rays.address()},
                                       {m.coat_distances.address()},
+                                      {m.mirrored.address()},
                                       paths,
                                       bounce,
                                       first_index,
@@ -266,10 +272,13 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
   });
 }
 
-void FramePassesVulkan::reuse_coat_rays(const Band& around, const Buffer& sky) {
+void FramePassesVulkan::reuse_coat_rays(const Band& around, const Buffer& sky,
+                                        bool keeps_mirrored) {
   reserve<vec4>(pixels_, "coats", memory_.coats);
   const bool filters = request_->settings.denoise;
   reserve<CoatGuide>(filters ? pixels_ : 0, "guides of coats", memory_.coat_guides);
+  const uint has = (world_.scene().has_bright_sky() ? kReflectsSky : 0u) |
+                   (filters ? kFindsGuides : 0u) | (keeps_mirrored ? kKeepsMirrored : 0u);
   add("glossy", [=, this, &sky](Recorder& to) {
     const FrameMemory& m = memory_;
     const FrameSettings& settings = request_->settings;
@@ -279,6 +288,7 @@ void FramePassesVulkan::reuse_coat_rays(const Band& around, const Buffer& sky) {
                                           {m.coat_rays.address()},
                                           {m.coats.address()},
                                           {m.coat_guides.address()},
+                                          {m.mirrored.address()},
                                           {sky.address()},
                                           camera.position_ws,
                                           camera.axes[2],
@@ -291,9 +301,9 @@ void FramePassesVulkan::reuse_coat_rays(const Band& around, const Buffer& sky) {
                                           static_cast<uint>(settings.height),
                                           static_cast<uint>(settings.glossy_rows),
                                           sample_,
-                                          world_.scene().has_bright_sky() ? 1u : 0u,
-                                          settings.denoise ? 1u : 0u,
-                                          static_cast<uint>(settings.emissive_samples)};
+                                          has,
+                                          static_cast<uint>(settings.emissive_samples),
+                                          0u};
     to.run(kernels_.coat_reuse, arguments, pixels_);
   });
 }

@@ -27,10 +27,10 @@ bool asks_for_coats(const Surface& surface, const CoatShares& shares) {
          (has_clearcoat(surface.reflectance.layers) && shares.clearcoat < 1.0f);
 }
 
-/// Direct light, with the samples of the sky.
-vec3 direct_light(const ReflectedLight& light, std::size_t i) {
+/// Specular direct light, with the samples of the sky.
+vec3 specular_light(const ReflectedLight& light, std::size_t i) {
   const vec3 sky = light.sky.empty() ? vec3(0.0f) : light.sky[i] + light.sky_in_clearcoats[i];
-  return light.diffuse[i] + light.specular[i] + sky;
+  return light.specular[i] + sky;
 }
 
 /// Ends a path that left the scene, and adds the sky's light.
@@ -59,17 +59,19 @@ void Glossy::start(const GlossySettings& settings, int first_row, std::size_t pi
   first_row_ = first_row;
   salt_ = static_cast<uint>(settings.sample) ^ salt;
   samples_behind_ = salt == kThroughSalt && has_rough_glass(settings.world.scene());
-  rays_.assign(pixels, {vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f), 0.0f});
+  rays_.assign(pixels, no_coat_ray(infinity()));
   paths_.start(pixels);
   coat_distances_.assign(pixels, -1.0f);
+  mirrored_.clear();
 }
 
 /// Draws the pixels' rays. Returns how many there are.
-std::uint64_t Glossy::send_rays(const GlossySettings& settings,
-                                std::span<const GlossyRows> around) {
+std::uint64_t Glossy::send_rays(const GlossySettings& settings, std::span<const GlossyRows> around,
+                                bool keeps_mirrored) {
   std::size_t pixels = 0;
   for (const GlossyRows& rows : around) pixels += rows.pixels.size();
   start(settings, around.front().first_row, pixels, 0u);
+  if (keeps_mirrored) mirrored_.assign(pixels, no_mirrored_coat());
 
   const auto rows_between = static_cast<uint>(settings.frame.glossy_rows);
   const auto sample = static_cast<uint>(settings.sample);
@@ -100,7 +102,7 @@ std::uint64_t Glossy::send_rays(const GlossySettings& settings,
             vec3(1.0f),
             drawn.pdf,
             surface.reflectance.alpha,
-            kStageOwnCoat,
+            first_stage(surface.reflectance.alpha, !mirrored_.empty()),
             kForksNowhere,
             emitter_density_scale(settings.world, settings.frame.emissive_samples,
                                   surface.position_ws)};
@@ -165,6 +167,11 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
           regularize_lobes(dot(surface.normal_ws, met_.to_viewer_ws[i]),
                            settings.field != nullptr ? surface.gi_share : 0.0f, bounce,
                            surface.transmission, met_.surfaces[i].reflectance, path);
+      if (!mirrored_.empty()) {
+        meet_mirrored_coat(met_.surfaces[i].reflectance, met_.coat_shares[i], surface.position_ws,
+                           surface.normal_ws, dot(surface.normal_ws, met_.to_viewer_ws[i]),
+                           hits[k].distance, path, mirrored_[i]);
+      }
     }
   });
   return traced;
@@ -216,7 +223,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
       if (met_.hit[i] == 0) continue;
       const Surface& surface = met_.surfaces[i];
       CoatPath& path = paths_.paths[i];
-      add_radiance(path, direct_light(direct_, i), rays_[i]);
+      add_direct_light(path, direct_.diffuse[i], specular_light(direct_, i), rays_[i]);
       const RandomStream random = make_random_stream(
           first_index + static_cast<uint>(i), coat_salt(salt_, bounce), ~settings.frame.seed);
       const NextRay next =
@@ -254,9 +261,10 @@ std::uint64_t Glossy::follow_all(const GlossySettings& settings, std::uint64_t g
 }
 
 std::uint64_t Glossy::reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
-                              const GlossyRows& band, CoatLight& light) {
-  const std::uint64_t traced = follow_all(settings, send_rays(settings, around), 1, {});
-  reuse_.reflect(settings, around, band, rays_, light);
+                              const GlossyRows& band, bool keeps_mirrored, CoatLight& light) {
+  const std::uint64_t going = send_rays(settings, around, keeps_mirrored);
+  const std::uint64_t traced = follow_all(settings, going, 1, {});
+  reuse_.reflect(settings, around, band, rays_, mirrored_, light);
   return traced;
 }
 
@@ -268,6 +276,13 @@ GlossySettings glossy_settings(const FrameRequest& request, const FrameSettings&
           camera_record(request.camera, frame.width, frame.height),
           request.drawn(sample),
           request.jitter()};
+}
+
+bool filters_mirrored_coats(const FrameRequest& request) {
+  if (!request.settings.denoise || !traces_coats(request)) return false;
+  return std::ranges::any_of(request.world.scene().materials, [](const Material& material) {
+    return !material.lambert && material.roughness * material.roughness <= kMirrorAlpha;
+  });
 }
 
 std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sample, CoatKind kind,
@@ -296,7 +311,9 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
   const GlossyRows own{pixels, band.first_row};
   const GlossyRows around[] = {
       {memory.above, above.first_row}, own, {memory.below, below.first_row}};
-  traced += memory.coats.reflect(glossy_settings(request, drawing, sample), around, own, light);
+  const bool keeps_mirrored = kind == CoatKind::coat && filters_mirrored_coats(request);
+  traced += memory.coats.reflect(glossy_settings(request, drawing, sample), around, own,
+                                 keeps_mirrored, light);
   for (std::size_t i = 0; i < sky.size(); ++i) {
     if (light.light[i].w > 0.0f) light.light[i] += vec4(sky[i], 0.0f);
   }

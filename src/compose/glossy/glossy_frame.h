@@ -45,9 +45,10 @@ class Glossy {
  public:
   /// Computes the light of the coats of `band`'s pixels from rays. `around` lists the rows from
   /// glossy_halo() above the band to as many below it, within the picture and including the band,
-  /// all with their coat_shares. Returns the number of rays traced.
+  /// all with their coat_shares. `keeps_mirrored`: CoatLight::mirrored is filled in. Returns the
+  /// number of rays traced.
   std::uint64_t reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
-                        const GlossyRows& band, CoatLight& light);
+                        const GlossyRows& band, bool keeps_mirrored, CoatLight& light);
 
   /// Computes the light transmitted through the surfaces of `band`'s pixels. Returns the number of
   /// rays traced.
@@ -61,7 +62,8 @@ class Glossy {
                            std::uint32_t first_bounce, const KeptBehind& kept);
   void split_paths(const GlossySettings& settings, std::uint32_t bounce);
   void keep_behind(const GlossySettings& settings, const KeptBehind& kept);
-  std::uint64_t send_rays(const GlossySettings& settings, std::span<const GlossyRows> around);
+  std::uint64_t send_rays(const GlossySettings& settings, std::span<const GlossyRows> around,
+                          bool keeps_mirrored);
   /// Adds the light of sources behind rough surfaces, which pixels (bounce 0) or paths hit. Returns
   /// the number of rays traced.
   std::uint64_t sample_lights_behind(const GlossySettings& settings, const GBuffer& seen,
@@ -75,8 +77,9 @@ class Glossy {
   int first_row_ = 0;
   std::vector<CoatRay> rays_;
   Paths paths_, forks_;  // the paths being traced, and the reflected branches to be traced later
-  std::vector<float> coat_distances_;  // TransmittedLight::coat_distances
-  GBuffer met_;                        // the paths' hits
+  std::vector<MirroredCoat> mirrored_;  // empty where these are not kept
+  std::vector<float> coat_distances_;   // TransmittedLight::coat_distances
+  GBuffer met_;                         // the paths' hits
   ReflectedLight direct_;
   std::vector<FieldQuery> queries_;
   std::vector<std::size_t> asked_;  // the queries' pixels
@@ -118,6 +121,9 @@ GlossySettings glossy_settings(const FrameRequest& request, const FrameSettings&
 std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sample, CoatKind kind,
                            const GBuffer& pixels, std::span<const glm::vec3> sky,
                            GlossyMemory& memory, CoatLight& light);
+
+/// Whether what coats that mirrors show reflect is filtered, see MirroredCoat.
+bool filters_mirrored_coats(const FrameRequest& request);
 
 /// Whether the light of clearcoats from rays is filtered, at pixels with is_filtered_clearcoat().
 bool filters_clearcoats(const FrameRequest& request);

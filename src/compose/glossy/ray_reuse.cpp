@@ -25,6 +25,22 @@ struct RaysAround {
   ivec2 picture_size;  // [pixels]
 };
 
+/// What the coats in the mirrors of the rows around a band reflect.
+struct MirroredAround {
+  using CoatViewRef = const MirroredAround&;
+  static float fetch_distance(CoatViewRef view, ivec2 pixel) {
+    const int place = (pixel.y - view.first_row) * view.picture_size.x + pixel.x;
+    return seen_distance(view.coats[static_cast<std::size_t>(place)]);
+  }
+  static ivec2 view_size(CoatViewRef view) { return view.picture_size; }
+
+#include "glossy/seen_distance.inl.h"
+
+  std::span<const MirroredCoat> coats;
+  int first_row;
+  ivec2 picture_size;  // [pixels]
+};
+
 /// The rows of rays around a row of the picture; the outermost have half their weight.
 std::vector<NeighbourRow> rows_around(const GlossySettings& settings, int row, int first_row) {
   const int between = settings.frame.glossy_rows;
@@ -72,16 +88,18 @@ void RayReuse::lay_out(const GlossySettings& settings, std::span<const GlossyRow
 
 void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
                        const GlossyRows& band, std::span<const CoatRay> rays,
-                       CoatLight& reflected) {
+                       std::span<const MirroredCoat> mirrored, CoatLight& reflected) {
   lay_out(settings, around, rays);
   const int width = settings.frame.width;
   const int first_row = around.front().first_row;
   const GBuffer& pixels = band.pixels;
   reflected.light.assign(pixels.size(), vec4(0.0f));
   reflected.guides.assign(settings.frame.denoise ? pixels.size() : 0, {vec3(0.0f), 0.0f});
+  reflected.mirrored.assign(mirrored.empty() ? 0 : pixels.size(), no_mirrored_coat());
   parallel_chunks(pixels.size() / width, 1, [&](std::size_t begin, std::size_t) {
     const int y = band.first_row + static_cast<int>(begin);
     RaysAround seen{rays, first_row, {width, settings.frame.height}};
+    MirroredAround in_mirrors{mirrored, first_row, {width, settings.frame.height}};
     std::vector<CoatReceiver> receivers;
     std::vector<int> places;
     RowPlanes asked, sums;
@@ -115,6 +133,15 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
       const float share = pixels.coat_shares[i].coat;
       const ReflectedRays found = reflected_rays(receivers[k], sums_of(sums, 0, places[k]));
       reflected.light[i] = share * light_by_rays(found.light);
+      if (!mirrored.empty()) {
+        const std::size_t place = static_cast<std::size_t>(y - first_row) * width + places[k];
+        MirroredCoat& coat = reflected.mirrored[i];
+        coat = mirrored_light(receivers[k], share, mirrored[place]);
+        if (coat.alpha > 0.0f) {
+          coat.inverse_seen_distance = in_mirrors.seen_inverse_distance(
+              in_mirrors, {places[k], y}, static_cast<uint>(settings.sample), 1u);
+        }
+      }
       if (!settings.frame.denoise) continue;
       reflected.guides[i] = {
           share * found.excess,

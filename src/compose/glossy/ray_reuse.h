@@ -34,11 +34,15 @@ struct CoatLight {
   /// RGB: the light, times A [W/(m^2 sr)]. A: the share of the coat's light that comes from rays.
   std::vector<glm::vec4> light;
   std::vector<CoatGuide> guides;  ///< Empty where light is not filtered.
+  /// The coats that mirrors show. `light` does not include theirs. Empty where that is not kept
+  /// separately.
+  std::vector<MirroredCoat> mirrored;
 
   bool empty() const { return light.empty(); }
   void clear() {
     light.clear();
     guides.clear();
+    mirrored.clear();
   }
 };
 
@@ -49,9 +53,11 @@ CoatLobe lobe_of(const GBuffer& pixels, std::size_t pixel);
 class RayReuse {
  public:
   /// Computes the light of `band`'s pixels, see Glossy::reflect, from the rays of all pixels
-  /// `around`.
+  /// `around`. `mirrored`: the coats that these pixels' mirrors show; empty where they are not
+  /// kept.
   void reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
-               const GlossyRows& band, std::span<const CoatRay> rays, CoatLight& reflected);
+               const GlossyRows& band, std::span<const CoatRay> rays,
+               std::span<const MirroredCoat> mirrored, CoatLight& reflected);
 
  private:
   void lay_out(const GlossySettings& settings, std::span<const GlossyRows> around,

@@ -35,6 +35,12 @@ void main() {
     layers.glossy += glossy;
     layers.all += glossy;
   }
+  if (args.mirrored != 0u && args.pixels.at[0].mirrored_lobes.at[i].sharpness > 0.0f) {
+    vec3 glossy = args.share * args.pixels.at[0].mirrored_albedo.at[i] *
+                  args.pixels.at[0].filtered_mirrored.at[i];
+    layers.glossy += glossy;
+    layers.all += glossy;
+  }
   if (args.gathered != 0u && args.pixels.at[0].received_weight.at[i] != 0.0f) {
     vec3 irradiance = args.share * args.pixels.at[0].filtered_gathered.at[i];
     vec3 indirect = args.pixels.at[0].indirect_albedo.at[i] * irradiance;

@@ -49,6 +49,12 @@ void main() {
   float gi_share = args.has_field != 0u ? surface.gi_share : 0.0f;
   surface.coat_shares = regularize_lobes(n_dot_v, gi_share, args.bounce, surface.transmission,
                                          surface.reflectance, path);
+  if (path.stage == kStageOwnMirror || path.stage == kStageBeyondMirroredCoat) {
+    MirroredCoat coat = args.mirrored.at[i];
+    meet_mirrored_coat(surface.reflectance, surface.coat_shares, point.position_ws,
+                       point.normal_ws, n_dot_v, args.hits.at[k].distance, path, coat);
+    args.mirrored.at[i] = coat;
+  }
   if (samples_lights_behind(path, surface.transmission)) surface.flags |= kSurfaceSamplesBehind;
   args.paths.at[k] = path;
   args.surfaces.at[k] = surface;

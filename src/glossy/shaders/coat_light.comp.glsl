@@ -22,10 +22,10 @@ void main() {
   vec3 light =
       reflected_indirect(surface.reflectance, n_dot_v, surface.gi_share * args.field.at[2u * k]) +
       coats_light(surface.reflectance, n_dot_v, surface.gi_share, shares,
-                  args.field.at[2u * k + 1u]) +
-      args.diffuse.at[k] + args.specular.at[k];
+                  args.field.at[2u * k + 1u]);
   CoatRay ray = args.coat_rays.at[i];
   add_radiance(path, light, ray);
+  add_direct_light(path, args.diffuse.at[k], args.specular.at[k], ray);
   args.coat_rays.at[i] = ray;
 
   RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);

@@ -12,8 +12,9 @@ layout(push_constant, scalar) uniform Push {
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
-  args.coat_rays.at[i] =
-      CoatRay(vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
+  args.coat_rays.at[i] = no_coat_ray(infinity());
+  bool keeps_mirrored = args.keeps_mirrored != 0u;
+  if (keeps_mirrored) args.mirrored.at[i] = no_mirrored_coat();
   PixelSurfaceRecord surface = args.surfaces.at[i];
   uvec2 pixel = uvec2(i % args.width, args.first_row + i / args.width);
   if (!traces_coat(surface.reflectance, surface.coat_shares.coat, int(pixel.y), args.sample_index,
@@ -31,7 +32,8 @@ void main() {
   args.coat_rays.at[i].direction_ws = drawn.direction_ws;
   args.coat_rays.at[i].pdf = drawn.pdf;
   CoatPath path =
-      CoatPath(vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kStageOwnCoat, kForksNowhere,
+      CoatPath(vec3(1.0f), drawn.pdf, surface.reflectance.alpha,
+               first_stage(surface.reflectance.alpha, keeps_mirrored), kForksNowhere,
                emitter_density_scale(args.emitter_samples, surface.fluence));
   append_path(args.list, i, path, surface.cone, point, NextRay(drawn.direction_ws, 1.0f));
 }

@@ -33,12 +33,26 @@ ivec2 view_size(CoatReuseArguments view) {
 
 #include "glossy/reuse.inl.h"
 #include "glossy/seen_distance.inl.h"
+#undef CoatViewRef
+
+/// What the coats in the mirrors of these rows reflect.
+struct InMirrors {
+  CoatReuseArguments rows;
+};
+#define CoatViewRef InMirrors
+float fetch_distance(InMirrors view, ivec2 pixel) {
+  return seen_distance(view.rows.mirrored.at[index_of(view.rows, pixel)]);
+}
+ivec2 view_size(InMirrors view) {
+  return view_size(view.rows);
+}
+#include "glossy/seen_distance.inl.h"
 
 void main() {
   uint k = gl_GlobalInvocationID.x;
   if (k >= args.count) return;
   args.light.at[k] = vec4(0.0f);
-  if (args.finds_guides != 0u) args.guides.at[k] = CoatGuide(vec3(0.0f), 0.0f);
+  if ((args.has & kFindsGuides) != 0u) args.guides.at[k] = CoatGuide(vec3(0.0f), 0.0f);
   ivec2 pixel = ivec2(k % args.width, args.band_row + k / args.width);
   uint i = index_of(args, pixel);
   PixelSurfaceRecord surface = args.surfaces.at[i];
@@ -61,9 +75,19 @@ void main() {
   float share = surface.coat_shares.coat;
   ReflectedRays found = reuse_rays(args, pixel, at, args.sample_index, args.rows);
   vec4 light = share * light_by_rays(found.light);
-  if (args.has_sky != 0u && light.w > 0.0f) light += vec4(args.sky.at[k], 0.0f);
+  if ((args.has & kKeepsMirrored) != 0u) {
+    MirroredCoat coat = mirrored_light(at, share, args.mirrored.at[i]);
+    args.mirrored.at[i].position_ws = coat.position_ws;
+    args.mirrored.at[i].normal_ws = coat.normal_ws;
+    args.mirrored.at[i].light = coat.light;
+    if (coat.alpha > 0.0f) {
+      args.mirrored.at[i].inverse_seen_distance =
+          seen_inverse_distance(InMirrors(args), pixel, args.sample_index, 1u);
+    }
+  }
+  if ((args.has & kReflectsSky) != 0u && light.w > 0.0f) light += vec4(args.sky.at[k], 0.0f);
   args.light.at[k] = light;
-  if (args.finds_guides == 0u) return;
+  if ((args.has & kFindsGuides) == 0u) return;
   args.guides.at[k] =
       CoatGuide(share * found.excess,
                 seen_inverse_distance(args, pixel, args.sample_index, args.rows));

@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push {
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
-  args.coat_rays.at[i] = CoatRay(vec3(0.0f, 0.0f, 1.0f), -1.0f, vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
+  args.coat_rays.at[i] = no_coat_ray(-1.0f);
   args.coat_distances.at[i] = -1.0f;
   PixelSurfaceRecord surface = args.surfaces.at[i];
   if ((surface.flags & kSurfaceMissed) != 0u || !is_transmissive(surface.transmission)) return;
