@@ -25,9 +25,8 @@ LAMBENT_FN vec3 gather_direction(Frame frame, vec2 point) {
 // Surfaces that are nearer to each other than probes are light each other with more detail than
 // lookups have: light between a lamp and its housing, shade under a bench. Where a gathering ray is
 // shorter than a spacing of the probes at its hit, a secondary gather may replace the lookup there
-// by one more ray: always up to half a spacing, and ever more rarely up to a whole one, so that
-// there is no seam. Secondary final gathering: Christensen, "Faster Photon Map Global
-// Illumination", Journal of Graphics Tools 4(3), 1999.
+// by one more ray: always up to half of this reach, and ever more rarely up to all of it, so that
+// there is no seam. Jensen, "Global Illumination using Photon Maps", 1996, sec. 5, for nearby hits.
 const float kSecondaryReach = 1.0f;  // [spacings]
 
 // Gives secondary gathers random numbers of their own.
