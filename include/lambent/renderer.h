@@ -41,13 +41,17 @@ struct FrameSettings {
   int reflected_emissive_samples = 4;
   /// Rays per sample that gather its indirect light (final gathering), >= 0; 0: the field is looked
   /// up instead. Gathering resolves light and shade finer than the probes' spacing, but is noisy,
-  /// and costs two rays for each.
+  /// and costs two rays for each, four for those that end within a spacing of the probes.
   int gather_rays = 0;
   /// Specular reflections of roughness below 0.95 are traced with a ray at each pixel of every
   /// `glossy_rows`-th row, 1 to 8, and at each pixel of roughness up to 0.5. 0: specular lobes
   /// reflect the field's light alone, without images. 2 halves the cost of 1 where most surfaces
   /// are rough. Needs a field.
   int glossy_rows = 2;
+  /// Specular rays of a pixel, 1 to 64, where rays of neighbouring pixels fit its lobe too little
+  /// to help: on thin and curved metal. Noise there falls with the square root. Needs
+  /// `glossy_rows`.
+  int coat_rays = 1;
   /// Whether gathered light, traced reflections, the light through glass and direct light of
   /// emissive surfaces are filtered (lambent/denoise.h). Light of directional, point and spot
   /// lights has no noise and is not filtered. Parts of a picture then need 63 more rows on each

@@ -13,6 +13,7 @@ namespace {
 constexpr int kMaxSide = 16384;    // of a picture [pixels]
 constexpr int kMaxGlossyRows = 8;  // between rows with rays; beyond that, reflections are lost
 constexpr int kMostAveragedFrames = 1000;
+constexpr int kMaxCoatRays = 64;
 
 Expected<void> check_side(const char* name, int pixels) {
   if (pixels >= 1 && pixels <= kMaxSide) return {};
@@ -22,6 +23,11 @@ Expected<void> check_side(const char* name, int pixels) {
 Expected<void> check_least(const char* name, int value, int least) {
   if (value >= least) return {};
   return fail("", name, std::to_string(value) + " is less than " + std::to_string(least));
+}
+
+Expected<void> check_coat_rays(int rays) {
+  if (rays >= 1 && rays <= kMaxCoatRays) return {};
+  return fail("", "coat rays", std::to_string(rays) + " is not between 1 and 64");
 }
 
 Expected<void> check_glossy_rows(int rows) {
@@ -63,6 +69,7 @@ FrameSettings quality_settings(Quality quality) {
       settings.samples = 4;
       settings.gather_rays = 16;
       settings.glossy_rows = 1;
+      settings.coat_rays = 8;
       settings.emissive_samples = 8;
       settings.reflected_emissive_samples = 16;
       settings.fog = {8, 96, 16};
@@ -82,7 +89,8 @@ Expected<void> check(const FrameSettings& s) {
       check_least("emissive samples", s.emissive_samples, 1),
       check_least("reflected emissive samples", s.reflected_emissive_samples, 1),
       check_least("gather rays", s.gather_rays, 0),
-      check_glossy_rows(s.glossy_rows)};
+      check_glossy_rows(s.glossy_rows),
+      check_coat_rays(s.coat_rays)};
   for (const Expected<void>& fine : checks) {
     if (!fine) return fine;
   }

@@ -59,8 +59,8 @@ void filter_mirrored(DenoiseView view, FilteredPixels& pixels) {
   filter_lobes(view, pixels, pixels.mirrored);
 }
 
-/// Filters what coats and clearcoats reflect, and highlights of emitters. As shadows may fall on
-/// highlights, pixels that differ by more than noise are not averaged.
+/// Filters what coats, clearcoats and coats in mirrors reflect, and highlights of emitters. As
+/// shadows may fall on highlights, pixels that differ by more than noise are not averaged.
 void filter_coats(DenoiseView view, FilteredPixels& pixels) {
   view.normals_ws = pixels.clearcoats.normals_ws;
   const bool any_clearcoats = filter_lobes(view, pixels, pixels.clearcoats);

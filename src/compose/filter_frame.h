@@ -43,11 +43,10 @@ struct FilteredPixels {
   std::vector<glm::vec3> emitter_albedo;  ///< Includes the factor emitter_levels.
   std::vector<float> emitter_levels;      ///< See filtered_level().
   FilteredCoats coats, clearcoats;
-  FilteredCoats mirrored;  ///< The coats that mirrors show.
-  // Where their mirror images are
-  std::vector<glm::vec3> mirrored_positions_ws;
-  std::vector<float> mirrored_depths;   ///< [m]; 0: the pixel shows none.
-  std::vector<glm::vec3> to_viewer_ws;  ///< Empty where there are no coats.
+  FilteredCoats mirrored;                        ///< The coats that mirrors show.
+  std::vector<glm::vec3> mirrored_positions_ws;  ///< Places of their mirror images.
+  std::vector<float> mirrored_depths;            ///< [m]; 0: the pixel shows none.
+  std::vector<glm::vec3> to_viewer_ws;           ///< Empty where there are no coats.
   // Specular light of emitters, divided by filtered_coat_albedo() where rays light the coat. Its
   // lobes have a width of highlight_alpha()
   std::vector<glm::vec3> highlights, highlight_albedo;

@@ -37,6 +37,7 @@
 #include "shaders/coat_reuse_comp.h"
 #include "shaders/compose_comp.h"
 #include "shaders/fog_pixels_comp.h"
+#include "shaders/further_rays_comp.h"
 #include "shaders/gather_rays_comp.h"
 #include "shaders/gather_sum_comp.h"
 #include "shaders/keep_behind_comp.h"
@@ -84,6 +85,7 @@ struct FrameKernels {
   vulkan::Kernel view_geometry{device, shaders::view_geometry_comp(), "view geometry"};
   vulkan::Kernel coat_rays{device, shaders::coat_rays_comp(), "coat rays"};
   vulkan::Kernel coat_hits{device, shaders::coat_hits_comp(), "coat hits"};
+  vulkan::Kernel further_rays{device, shaders::further_rays_comp(), "further coat rays"};
   vulkan::Kernel coat_light{device, shaders::coat_light_comp(), "coat light"};
   vulkan::Kernel coat_reuse{device, shaders::coat_reuse_comp(), "coat reuse"};
   vulkan::Kernel show_clearcoats{device, shaders::show_clearcoats_comp(), "show clearcoats"};
@@ -192,7 +194,7 @@ struct FrameMemory {
   vulkan::Buffer scene_before, instances_before, positions_before;
   // Pixels, rays and lists of paths, for the rows around a band whose coats are lit by rays.
   // Bounces use the two lists in turn
-  vulkan::Buffer coats, coat_guides, coat_points, coat_surfaces, coat_rays, mirrored;
+  vulkan::Buffer coats, coat_guides, coat_points, coat_surfaces, coat_rays, mirrored, own_rays;
   PathBuffers path_lists[2];
   PathBuffers forks;  // reflected branches, traced later
   vulkan::Buffer path_hits, path_points, path_surfaces, path_diffuse, path_specular;
@@ -278,6 +280,9 @@ class FramePassesVulkan final : public FramePasses {
   /// Lights the coats of the rows around the band, which see_around_band() has filled in, by rays;
   /// see Glossy::reflect. `sky`: see reflect_band(). Returns whether there are any rays.
   bool trace_coats(const Band& around, CoatKind kind, const Buffer& sky);
+  CoatRaysArguments coat_rays_of(std::uint32_t first, std::uint32_t count, int first_row,
+                                 std::uint32_t seed) const;
+  bool add_further_rays(const Band& around, std::uint32_t seed, std::uint32_t ray);
   /// The rows whose rays the band's coats reflect.
   Band rows_around_band() const;
   void see_around_band(const Band& around);

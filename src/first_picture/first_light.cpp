@@ -10,8 +10,6 @@
 #include "first_picture/subject.h"
 #include "first_picture/survey.h"
 #include "lambent/first_picture.h"
-#include "raytracing/world_access.h"
-#include "scene/attributes.h"
 #include "shared/rays.h"
 
 namespace lambent {
@@ -86,14 +84,6 @@ bool has_lights_or_sky(const Scene& scene) {
   if (scene.environment.radiance != glm::vec3(0.0f)) return true;
   return std::any_of(scene.lights.begin(), scene.lights.end(),
                      [](const Light& light) { return light.intensity != glm::vec3(0.0f); });
-}
-
-/// Whether some surfaces emit more light than signs and screens do.
-bool has_emissive_lamps(const World& world) {
-  return std::ranges::any_of(emissive_of(world).entries(), [&](const EmitterRecord& emitter) {
-    const glm::vec3& emission = material_of(world.scene(), emitter.instance).emission;
-    return std::max({emission.x, emission.y, emission.z}) > kMaxSignRadiance;
-  });
 }
 
 /// Whether a scene is a piece of ground with things on it, rather than a thing.
@@ -232,9 +222,9 @@ FirstLight choose_first_light(const World& world, const Camera& camera) {
   }
   if (indoors) {
     const bool closed = light.sky_visibility <= kMaxSkyIndoors && !has_court(world, true);
-    if (closed && light.lit_by_emission >= kMinLitThroughDoors && has_emissive_lamps(world)) {
-      return FirstLight::scene;
-    }
+    const bool through_doors =
+        light.lit_by_emission >= kMinLitThroughDoors && light.brightest_emitter > kMaxSignRadiance;
+    if (closed && through_doors) return FirstLight::scene;
     return closed ? FirstLight::lamps : FirstLight::sun;
   }
   return is_outdoors(world) ? FirstLight::sun : FirstLight::studio;

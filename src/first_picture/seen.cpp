@@ -38,9 +38,16 @@ float largest(const glm::vec3& v) {
   return std::max({v.x, v.y, v.z});
 }
 
+/// What reaches a point.
+struct PointLight {
+  float irradiance = 0.0f;         ///< From emitters, directly and after one bounce.
+  float brightest_emitter = 0.0f;  ///< Largest radiance of those emitters [W/(m^2 sr)].
+  int escaped = 0;                 ///< Number of rays that left the scene.
+};
+
 /// Irradiance from emissive surfaces, estimated from `samples` samples of them.
 float emitted_irradiance(const World& world, const LitPoint& point, int samples,
-                         RandomStream& random) {
+                         RandomStream& random, float& brightest_emitter) {
   const EmissiveTriangles& emissive = emissive_of(world);
   if (emissive.empty()) return 0.0f;
   float sum = 0.0f;
@@ -66,30 +73,33 @@ float emitted_irradiance(const World& world, const LitPoint& point, int samples,
       continue;
     }
     sum += cosine * largest(light.perpendicular_irradiance);
+    brightest_emitter = std::max(brightest_emitter, largest(radiance));
   }
   return sum;
 }
 
-/// Irradiance of a point from emitters, directly and after one bounce; adds the number of rays that
-/// leave the scene to `escaped`.
-float irradiance_of(const World& world, const LitPoint& point, RandomStream& random, int& escaped) {
-  float sum = emitted_irradiance(world, point, kEmitterSamples, random);
+PointLight light_at(const World& world, const LitPoint& point, RandomStream& random) {
+  PointLight light;
+  light.irradiance =
+      emitted_irradiance(world, point, kEmitterSamples, random, light.brightest_emitter);
   for (int r = 0; r < kRaysPerPoint; ++r) {
     const glm::vec3 direction =
         sample_cosine_about(point.geometric_normal_ws, next_uniform2(random));
     const Ray ray{offset_ray_origin(point.position_ws, point.geometric_normal_ws), 0.0f, direction};
     const Hit hit = tracer_of(world).closest_hit(ray);
     if (hit.missed()) {
-      ++escaped;
+      ++light.escaped;
       continue;
     }
     if (emissive_of(world).empty()) continue;
     const Surface surface = surface_at(world.scene(), ray, hit);
     const float albedo = largest(surface.reflectance.diffuse);
-    sum += albedo * emitted_irradiance(world, lit_point(surface), kBounceSamples, random) /
-           kRaysPerPoint;
+    light.irradiance += albedo *
+                        emitted_irradiance(world, lit_point(surface), kBounceSamples, random,
+                                           light.brightest_emitter) /
+                        kRaysPerPoint;
   }
-  return sum;
+  return light;
 }
 
 }  // namespace
@@ -131,12 +141,11 @@ SeenView sample_view(const World& world, const Camera& camera) {
 
 ViewLight measure_view_light(const World& world, const SeenView& view) {
   const std::size_t count = view.points.size();
-  std::vector<float> irradiances(count, 0.0f);
-  std::vector<int> escaped(count, 0);
+  std::vector<PointLight> lights(count);
   parallel_chunks(count, 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       RandomStream random = make_random_stream(static_cast<std::uint32_t>(i), 0, kLightSeed);
-      irradiances[i] = irradiance_of(world, view.points[i].point, random, escaped[i]);
+      lights[i] = light_at(world, view.points[i].point, random);
     }
   });
 
@@ -144,16 +153,17 @@ ViewLight measure_view_light(const World& world, const SeenView& view) {
   std::size_t reflecting = 0;
   float emitted = 0.0f;
   int open = 0;
+  ViewLight light;
   for (std::size_t i = 0; i < count; ++i) {
-    open += escaped[i];
+    open += lights[i].escaped;
+    light.brightest_emitter = std::max(light.brightest_emitter, lights[i].brightest_emitter);
     if (view.points[i].emission > 0.0f) {
       emitted += view.points[i].emission;
       continue;
     }
     ++reflecting;
-    if (irradiances[i] > 0.0f) lit.push_back(irradiances[i]);
+    if (lights[i].irradiance > 0.0f) lit.push_back(lights[i].irradiance);
   }
-  ViewLight light;
   if (count > 0) {
     light.sky_visibility = static_cast<float>(open) / static_cast<float>(count * kRaysPerPoint);
   }

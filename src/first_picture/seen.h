@@ -32,6 +32,9 @@ struct ViewLight {
                                 ///< over the mean radiance of the emitters that the camera sees;
                                 ///< infinite where it sees none.
   float emitter_radiance = 0.0f;  ///< Mean over the emitters that the camera sees [W/(m^2 sr)].
+  /// Largest radiance of the emitters whose light reaches the points, directly or after a bounce
+  /// [W/(m^2 sr)].
+  float brightest_emitter = 0.0f;
   float sky_visibility = 0.0f;  ///< Share of the points' cosine-weighted hemispheres that is open.
 };
 ViewLight measure_view_light(const World& world, const SeenView& view);

@@ -25,9 +25,11 @@ LAMBENT_FN vec3 gather_direction(Frame frame, vec2 point) {
 // Surfaces that are nearer to each other than probes are light each other with more detail than
 // lookups have: light between a lamp and its housing, shade under a bench. Where a gathering ray is
 // shorter than a spacing of the probes at its hit, a secondary gather may replace the lookup there
-// by one more ray: always up to half of this reach, and ever more rarely up to all of it, so that
-// there is no seam. Jensen, "Global Illumination using Photon Maps", 1996, sec. 5, for nearby hits.
+// by one more ray: always up to a share of this reach, and ever more rarely up to all of it, so
+// that there is no seam. Jensen, "Global Illumination using Photon Maps", 1996, sec. 5, for nearby
+// hits.
 const float kSecondaryReach = 1.0f;  // [spacings]
+const float kCertainShare = 0.5f;    // of the reach, up to which there always is one
 
 // Gives secondary gathers random numbers of their own.
 const uint kSecondarySalt = 0x85EBCA6Bu;
@@ -35,7 +37,8 @@ const uint kSecondarySalt = 0x85EBCA6Bu;
 /// The probability of a secondary gather where a ray of this length [m] ends among probes of this
 /// spacing [m].
 LAMBENT_FN float secondary_probability(float distance, float spacing) {
-  return clamp(2.0f - 2.0f * distance / (kSecondaryReach * spacing), 0.0f, 1.0f);
+  float left = 1.0f - distance / (kSecondaryReach * spacing);
+  return clamp(left / (1.0f - kCertainShare), 0.0f, 1.0f);
 }
 
 /// The ray of a secondary gather.
@@ -49,7 +52,8 @@ struct SecondaryRay {
 LAMBENT_FN SecondaryRay secondary_ray(vec3 position_ws, vec3 normal_ws, vec3 geometric_normal_ws,
                                       float distance, float spacing, uint index, uint sample_index,
                                       uint seed) {
-  RandomStream random = make_random_stream(index, sample_index ^ kSecondarySalt, seed);
+  // The complement of the seed: light at its hit draws from the stream of the seed itself
+  RandomStream random = make_random_stream(index, sample_index ^ kSecondarySalt, ~seed);
   SecondaryRay ray;
   ray.traced = next_uniform(random) < secondary_probability(distance, spacing);
   ray.origin_ws = offset_ray_origin(position_ws, geometric_normal_ws);

@@ -19,8 +19,9 @@ struct CoatRay {
                       ///< Rays through surfaces have 0; where there is no such ray, `distance` is
                       ///< below 0.
   vec3 apart;         ///< Light that is stored apart, see CoatPath::stage [W/(m^2 sr)].
-  /// Of kStageOwnCoat: emission_luminance() of the emitter that it found [W/(m^2 sr)]; of the sky,
-  /// minus the density with which samples find it [1/sr]. See sampled_density().
+  /// Of kStageOwnCoat and kStageOwnMirror: emission_luminance() of the emitter that it found
+  /// [W/(m^2 sr)]; of the sky, minus the density with which samples find it [1/sr]. See
+  /// sampled_density().
   float apart_luminance;
   /// Light that the coat of what a mirror shows reflects, see MirroredCoat [W/(m^2 sr)]. `radiance`
   /// does not include it.
@@ -29,7 +30,7 @@ struct CoatRay {
 LAMBENT_DEVICE_ARRAY(CoatRayArray, CoatRay, 4)
 
 // Values of CoatPath::stage: what a path has hit so far, and hence which light of its next hits is
-// stored in CoatRay::apart.
+// stored in CoatRay::apart or CoatRay::mirrored.
 /// It left the pixel's surface, or a coat that it hit. Nothing is stored apart.
 const uint kStageOther = 0u;
 /// It left the pixel's coat, and no other coat has reflected it. The emission that it hits, or the
@@ -79,20 +80,20 @@ struct CoatPath {
 };
 LAMBENT_DEVICE_ARRAY(CoatPathArray, CoatPath, 4)
 
-// Widest lobe of a mirror, that of roughness 0.1. The filter cannot spread what such a coat
-// reflects over more than a pixel or two: the picture in it would blur.
+// Widest lobe of a pixel that counts as a mirror here, that of roughness 0.1. The filter cannot
+// spread what such a coat reflects over more than a pixel or two: the picture in it would blur.
+// Rays that meet mirrors later on their way count wider ones, see is_mirror().
 const float kMirrorAlpha = 0.01f;
 
 /// A coat that a pixel's mirror shows. A mirrored picture of it is as noisy as the coat itself:
 /// what it reflects is filtered over its own lobe, as if the surface stood behind the mirror.
 struct MirroredCoat {
-  // Of the surface; once the pixel's light is known, of its mirror image
-  vec3 position_ws;
-  vec3 normal_ws;
+  vec3 position_ws;     ///< Of the surface. After all rays were traced, of its mirror image.
+  vec3 normal_ws;       ///< As position_ws.
   float alpha;          ///< GGX width of its lobe; 0: the mirror shows no such coat.
-  vec3 albedo;          ///< filtered_coat_albedo()
-  float seen_distance;  ///< From it to what it reflects [m]; infinite: the sky, or nothing.
-  // Known once the light of all rays is
+  vec3 albedo;          ///< filtered_coat_albedo(). After all rays were traced, times the mirror's.
+  float seen_distance;  ///< From it to what it reflects [m]; infinite: the sky; below 0: unknown.
+  // These are filled in after all rays of the pixel were traced
   vec3 light;                   ///< What it reflects by rays, as the mirror shows it [W/(m^2 sr)].
   float inverse_seen_distance;  ///< See seen_inverse_distance() [1/m].
 };
@@ -100,13 +101,13 @@ LAMBENT_DEVICE_ARRAY(MirroredCoatArray, MirroredCoat, 4)
 
 /// The record of a pixel whose mirror shows no such coat.
 LAMBENT_FN MirroredCoat no_mirrored_coat() {
-  MirroredCoat none = {vec3(0.0f), vec3(0.0f), 0.0f, vec3(0.0f), infinity(), vec3(0.0f), 0.0f};
+  MirroredCoat none = {vec3(0.0f), vec3(0.0f), 0.0f, vec3(0.0f), -1.0f, vec3(0.0f), 0.0f};
   return none;
 }
 
-/// The distance to what the coat in a pixel's mirror reflects [m]; below 0 where there is none.
-LAMBENT_FN float seen_distance(MirroredCoat coat) {
-  return coat.alpha > 0.0f ? coat.seen_distance : -1.0f;
+/// The distance to what the coat of this width in a pixel's mirror reflects [m], or below 0.
+LAMBENT_FN float seen_distance(float mirrored_alpha, float seen_distance) {
+  return mirrored_alpha > 0.0f ? seen_distance : -1.0f;
 }
 
 /// CoatPath::pdf of paths through surfaces behind which no lights are sampled: no other estimator
@@ -136,6 +137,14 @@ LAMBENT_FN bool left_scene(float distance) {
 LAMBENT_FN float inverse_seen_distance(float distance) {
   return left_scene(distance) ? 0.0f : 1.0f / max(distance, kLeastSeenDistance);
 }
+
+/// The part of a coat's light that the pixel's own ray supplies alone, as no ray around fits its
+/// lobe.
+struct OwnRayLight {
+  vec3 light;   ///< The estimate of that ray [W/(m^2 sr)].
+  float share;  ///< Its share of the coat's light.
+};
+LAMBENT_DEVICE_ARRAY(OwnRayLightArray, OwnRayLight, 4)
 
 /// What the filter is told of the light that a pixel's coat reflects from rays.
 struct CoatGuide {

@@ -14,6 +14,7 @@
 #include "raytracing/ray_cone.h"
 #include "raytracing/ray_records.h"
 #include "shared/cross_bilateral.h"
+#include "shared/demodulate.h"
 #include "shared/pixel_points.h"
 #include "shared/random.h"
 
@@ -69,9 +70,13 @@ const float kMaxShareOfOthers = 0.5f;
 /// of a sphere that covers few pixels curves away as much from its tangent plane within the reach.
 const float kPlaneTolerance = 4.0f;
 
+/// Coats have further rays where at least this share of their light is that of their own ray.
+const float kMinOwnShare = 0.25f;
+
 // Salts that make the random numbers of these passes independent of those of other passes.
 const uint kCoatSalt = 0x434F4154u;
 const uint kCoatBounceSalt = 0x9E3779B9u;
+const uint kFurtherRaySalt = 0x46525941u;
 const uint kThroughSalt = 0x5448524Fu;
 const uint kBehindSalt = 0x42484E44u;
 const uint kClearcoatSalt = 0x434C5243u;
@@ -107,6 +112,23 @@ LAMBENT_FN bool traces_coat(Reflectance surface, float coat_share, int row, uint
 /// The point in the unit square from which a pixel draws its ray.
 LAMBENT_FN vec2 coat_uniforms(uvec2 pixel, uint sample_index, uint rows, uint seed) {
   return pixel_point(pixel.x, pixel.y / rows, 0u, 1u, sample_index, seed ^ kCoatSalt);
+}
+
+/// The point in the unit square from which a pixel draws ray number `ray`, 1 or more.
+LAMBENT_FN vec2 further_coat_uniforms(uvec2 pixel, uint sample_index, uint ray, uint seed) {
+  return coat_uniforms(pixel, sample_index, 1u, seed + ray * kFurtherRaySalt);
+}
+
+/// Whether a coat of this width has further rays: most of its light is that of its own ray, and not
+/// a mirror's, which has little noise.
+LAMBENT_FN bool needs_further_rays(OwnRayLight own, float alpha) {
+  return own.share >= kMinOwnShare && alpha > kMirrorAlpha;
+}
+
+/// Light to add for the estimate `found` of one further ray, of which there are `rays` with the
+/// first.
+LAMBENT_FN vec3 further_light(OwnRayLight own, vec3 found, uint rays) {
+  return (own.share / float(rays)) * (found - own.light);
 }
 
 /// For lanes, the same of all of them.
@@ -236,6 +258,8 @@ LAMBENT_FN MirroredCoat mirrored_light(CoatReceiver at, float share, MirroredCoa
   at.own.radiance = at.own.mirrored;
   at.own.apart = vec3(0.0f);
   coat.light = share * reflected_own_ray(at);
+  vec3 tint = specular_albedo(at.reflectance, dot(at.lobe.normal_ws, at.lobe.to_viewer_ws));
+  coat.albedo *= share * max(tint, vec3(kLeastFilteredAlbedo));
   vec3 across = at.lobe.normal_ws;
   coat.position_ws -= 2.0f * dot(coat.position_ws - at.lobe.position_ws, across) * across;
   coat.normal_ws -= 2.0f * dot(coat.normal_ws, across) * across;
@@ -244,8 +268,10 @@ LAMBENT_FN MirroredCoat mirrored_light(CoatReceiver at, float share, MirroredCoa
 
 /// Radiance that a receiver reflects of the rays around it.
 struct ReflectedRays {
-  vec3 light;   ///< All of it; negative where there is no ray.
+  vec3 light;   ///< All of it but CoatRay::mirrored; negative where there is no ray.
   vec3 excess;  ///< The part of it that is excess, see kMaxShareOfOthers.
+  vec3 own;     ///< The estimate of the receiver's own ray alone; valid where own_share is not 0.
+  float own_share;  ///< Share of `own` in the light.
 };
 
 /// The part of the brightest ray's light that is excess. A ray may always bring its share of the
@@ -272,9 +298,9 @@ LAMBENT_FN vec3 excess_of(CoatSums sums) {
 /// pixels alone.
 LAMBENT_FN ReflectedRays reflected_rays(CoatReceiver at, CoatSums sums) {
   bool has_own = at.own.pdf != 0.0f;
-  ReflectedRays rays = {vec3(-1.0f), vec3(0.0f)};
+  ReflectedRays rays = {vec3(-1.0f), vec3(0.0f), vec3(0.0f), has_own ? 1.0f : 0.0f};
   if (sums.pixels <= 0.0f) {
-    if (has_own) rays.light = reflected_own_ray(at);
+    if (has_own) rays.light = rays.own = reflected_own_ray(at);
     return rays;
   }
   if (sums.own_weight > 0.0f) {
@@ -285,13 +311,14 @@ LAMBENT_FN ReflectedRays reflected_rays(CoatReceiver at, CoatSums sums) {
   float known = clamp((sums.fitting - 1.0f) / (kRaysOfMean - 1.0f), 0.0f, 1.0f);
   if (!has_own) known = 1.0f;
   vec3 unknown = known < 1.0f ? reflected_own_ray(at) : vec3(0.0f);
-  if (has_own) rays.light = unknown;
+  if (has_own) rays.light = rays.own = unknown;
   // The reciprocal of the smallest weights is infinite
   if (sums.weight < kLeastPixelWeight || known <= 0.0f) return rays;
   vec3 reflected =
       at.reflectance.f0 * (sums.weight - sums.schlick) + vec3(at.reflectance.f90 * sums.schlick);
   vec3 albedo = specular_albedo(at.reflectance, dot(at.lobe.normal_ws, at.lobe.to_viewer_ws));
   vec3 scale = albedo / max(reflected, vec3(kLeastReflected));
+  rays.own_share = 1.0f - known;
   rays.light = mix(unknown, sums.light * scale + sums.emission / sums.pixels, known);
   rays.excess = known * scale * excess_of(sums);
   return rays;

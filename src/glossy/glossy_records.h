@@ -34,6 +34,9 @@ struct CoatRaysArguments {
   uint emitter_samples;        ///< Samples of the pixels' own direct light.
   uint keeps_mirrored;         ///< 1: what coats in mirrors reflect is stored separately.
   MirroredCoatArray mirrored;  ///< Written where keeps_mirrored is 1.
+  OwnRayLightArray own;        ///< Read where `ray` is not 0.
+  uint ray;  ///< Number of the rays; from 1 on, only pixels with needs_further_rays() have one.
+  uint padding;
 };
 
 /// Draws the rays that pixels send through their surfaces.
@@ -137,6 +140,8 @@ struct ClearcoatLightArguments {
 const uint kReflectsSky = 1u;    ///< `sky` is added.
 const uint kFindsGuides = 2u;    ///< `guides` are written.
 const uint kKeepsMirrored = 4u;  ///< `mirrored` is brought up to date.
+const uint kKeepsOwn = 8u;       ///< `own` is written.
+const uint kOrthographic = 16u;  ///< The camera is orthographic.
 
 /// Computes the light that the band's pixels reflect from the rays around them.
 struct CoatReuseArguments {
@@ -146,19 +151,31 @@ struct CoatReuseArguments {
   Vec4Array light;        ///< See CoatLight; one a pixel of the band.
   CoatGuideArray guides;  ///< See CoatLight; one a pixel of the band.
   MirroredCoatArray mirrored;
-  Vec3Array sky;  ///< See reflect_band(); one a pixel of the band.
+  OwnRayLightArray own;  ///< One a pixel of the band.
+  Vec3Array sky;         ///< See reflect_band(); one a pixel of the band.
   vec3 camera_ws;
   vec3 camera_back;   ///< Unit; against the direction of view.
   float pixel_width;  ///< [m], at a distance of one metre; orthographic cameras: everywhere.
-  uint orthographic;
-  uint first_row;  ///< First of the rows around the band, counted in the picture.
-  uint band_row;   ///< First row of the band, counted in the picture.
-  uint count;      ///< Number of pixels in the band.
-  uint width;      ///< Width of the picture [pixels].
+  uint first_row;     ///< First of the rows around the band, counted in the picture.
+  uint band_row;      ///< First row of the band, counted in the picture.
+  uint count;         ///< Number of pixels in the band.
+  uint width;         ///< Width of the picture [pixels].
   uint height;
   uint rows;
   uint sample_index;
-  uint has;              ///< kReflectsSky, kFindsGuides, kKeepsMirrored.
+  uint has;              ///< kReflectsSky, ...
+  uint emitter_samples;  ///< Samples of the pixels' own direct light.
+};
+
+/// Adds what further rays found to the light of pixels.
+struct FurtherRaysArguments {
+  LitPointArray points;  ///< One a pixel of the band, as are the next four.
+  PixelSurfaceArray surfaces;
+  CoatRayArray coat_rays;
+  OwnRayLightArray own;
+  Vec4Array light;  ///< See CoatLight.
+  uint count;
+  uint rays;             ///< With the first one.
   uint emitter_samples;  ///< Samples of the pixels' own direct light.
   uint padding;
 };

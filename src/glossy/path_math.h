@@ -127,20 +127,22 @@ LAMBENT_FN uint first_stage(float alpha, bool keeps_mirrored) {
   return keeps_mirrored && alpha <= kMirrorAlpha ? kStageOwnMirror : kStageOwnCoat;
 }
 
+/// MirroredCoat::seen_distance after a hit that lies `further` from the one before [m].
+LAMBENT_FN float seen_beyond(CoatPath path, float so_far, float further) {
+  return path.stage == kStageBeyondMirroredCoat && so_far < 0.0f ? further : so_far;
+}
+
 /// Describes the coat that a path's hit shows in the pixel's mirror, if the path goes on from it
-/// with `shares`; `further`: the distance from the hit before [m].
-LAMBENT_FN void meet_mirrored_coat(Reflectance surface, CoatShares shares, vec3 position_ws,
-                                   vec3 normal_ws, float n_dot_v, float further,
+/// with `shares`.
+LAMBENT_FN void meet_mirrored_coat(Transmission through, Reflectance surface, CoatShares shares,
+                                   vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws,
                                    LAMBENT_INOUT(CoatPath) path, LAMBENT_INOUT(MirroredCoat) coat) {
-  if (path.stage == kStageBeyondMirroredCoat && left_scene(coat.seen_distance)) {
-    coat.seen_distance = further;
-  }
-  if (path.stage != kStageOwnMirror) return;
+  if (path.stage != kStageOwnMirror || is_transmissive(through)) return;
   if (surface.alpha <= kMirrorAlpha || shares.coat <= 0.0f) return;
   coat.position_ws = position_ws;
   coat.normal_ws = normal_ws;
   coat.alpha = surface.alpha;
-  coat.albedo = filtered_coat_albedo(surface, n_dot_v, 1.0f);
+  coat.albedo = filtered_coat_albedo(surface, dot(normal_ws, to_viewer_ws), 1.0f);
   path.stage = kStageAtMirroredCoat;
 }
 
@@ -261,7 +263,6 @@ LAMBENT_FN NextRay extend_through_glass(Transmission through, Reflectance coat, 
   ThroughDraw drawn = draw_through(through, coat, normal_ws, to_viewer_ws, u);
   path.throughput *= drawn.weight;
   path.alpha = max(path.alpha, through.alpha);
-  if (path.stage == kStageAtMirroredCoat) path.stage = kStageOwnMirror;
   if (path.stage == kStageThroughGlass && !goes_straight(through)) {
     path.pdf = drawn.pdf > 0.0f ? drawn.pdf : kNoLightSampling;
     path.density_scale = drawn.pdf > 0.0f ? density_scale : 0.0f;

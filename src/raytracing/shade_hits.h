@@ -66,7 +66,7 @@ struct ShadeHitsScratch {
   ShadowRays shadows;
   std::vector<Ray> to_hits;          // the rays, each ending at its hit
   std::vector<glm::vec3> through;    // share of light that passes along them
-  std::vector<std::size_t> indices;  // of rays that follow each other
+  std::vector<std::size_t> indices;  // the rays' indices, where they follow each other
   /// Rays that mirrors reflect, their indices, and the hits of `shaded` from which they come.
   struct Reflected {
     std::vector<std::size_t> from, indices;

@@ -201,7 +201,31 @@ TEST(FilteredFrame, ShowsRoughClearcoatsWithLessNoiseAndAllOfTheirLight) {
 }
 
 TEST(FilteredFrame, ShowsRoughCoatsInMirrorsWithLessNoiseAndAllOfTheirLight) {
-  expect_less_noise_in_reflections(LitStage(test::metal_in_a_mirror()));
+  // Rays of neighbours are reused in the second one
+  for (const float roughness : {0.0f, 0.09f}) {
+    expect_less_noise_in_reflections(LitStage(test::metal_in_a_mirror(roughness)));
+  }
+}
+
+// Small metal balls, whose lobes point away from each other from pixel to pixel.
+TEST(FilteredFrame, FurtherRaysTakeNoiseOffCurvedMetalAndNoLight) {
+  const LitStage balls("spheres");
+  const auto noise_and_mean = [&](int coat_rays) {
+    FrameSettings one = of_quality(Quality::high);
+    one.width = one.height = 64;
+    one.samples = 1;
+    one.gather_rays = 0;
+    one.coat_rays = coat_rays;
+    FrameSettings again = one;
+    again.seed = 7;
+    const LayeredImage a = balls.picture(one), b = balls.picture(again);
+    const Metrics found =
+        compare_images(*a.find("glossy"), *b.find("glossy"), {.perceptual = false}).value();
+    return glm::dvec2(found.relative_rmse, found.mean_a);
+  };
+  const glm::dvec2 first = noise_and_mean(1), further = noise_and_mean(8);
+  EXPECT_LT(further.x, 0.75 * first.x);
+  EXPECT_NEAR(further.y, first.y, 0.02 * first.y);
 }
 
 // Just above a lamp's horizon rounding alone decides how little light arrives there. One pixel

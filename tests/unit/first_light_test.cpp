@@ -174,6 +174,11 @@ TEST(FirstLight, IsWhatLampsInOtherRoomsSendThroughADoor) {
   ASSERT_LT(light.lit_by_emission, 0.4f);
   EXPECT_EQ(choose_first_light(world, camera), FirstLight::scene) << light.lit_by_emission;
   EXPECT_EQ(choose_first_light(World(glowing), camera), FirstLight::lamps);
+  // A lamp whose light does not reach the corridor changes nothing
+  Scene sealed = corridor(0.8f);
+  sealed.materials.push_back(test::lambert(glm::vec3(0.0f), glm::vec3(60.0f)));
+  test::add(sealed, test::quad({3.5f, 2.5f, -3.0f}, {1, 0, 0}, {0, 0, 0.3f}, 2));
+  EXPECT_EQ(choose_first_light(World(sealed), camera), FirstLight::lamps);
 }
 
 TEST(FirstLight, IsNotWhatASmallEmitterOnAnObjectSends) {

@@ -127,6 +127,26 @@ TEST(Gather, SecondaryGathersSupplyLightThatTheFieldLacks) {
   EXPECT_LT(sparse, 2.0f * dense);
 }
 
+TEST(Gather, SecondaryGathersTakeThePlaceOfLookups) {
+  const test::Stage stage("cornell");
+  FrameSettings frame;
+  frame.width = frame.height = 24;
+  const GBuffer gbuffer = seen_of(stage, frame);
+  const GatherRequest request{gbuffer.surfaces, gbuffer.hit, frame.width, 0, 64};
+  // With probes a room apart all gathers are secondary; with dense ones hardly any are
+  const auto mean_light = [&](int probes, int updates) {
+    FieldSettings settings;
+    settings.probe_count = glm::ivec3(probes);
+    GatheredLight light;
+    gather_irradiance(stage.world, test::make_field(stage, settings, updates), request, light);
+    float sum = 0.0f;
+    for (const vec3& irradiance : light.irradiance) sum += luminance(irradiance);
+    return sum;
+  };
+  const float dense = mean_light(16, 2), sparse = mean_light(3, 16);
+  EXPECT_NEAR(sparse, dense, 0.03f * dense);
+}
+
 TEST(Gather, TellsHowNoisyItsLightIs) {
   const test::Stage stage("cornell");
   const IrradianceField field = coarse_field(stage);

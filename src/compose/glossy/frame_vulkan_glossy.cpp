@@ -130,6 +130,30 @@ std::uint32_t FramePassesVulkan::count_paths(const PathBuffers& list) {
   return count;
 }
 
+/// Arguments that draw the rays of `count` of the pixels around the band, from number `first` on,
+/// which is in row `first_row` of the picture.
+CoatRaysArguments FramePassesVulkan::coat_rays_of(std::uint32_t first, std::uint32_t count,
+                                                  int first_row, std::uint32_t seed) const {
+  const FrameMemory& m = memory_;
+  const FrameSettings& settings = request_->settings;
+  return {{m.coat_points.address() + first * sizeof(LitPointRecord)},
+          {m.coat_surfaces.address() + first * sizeof(PixelSurfaceRecord)},
+          {m.coat_rays.address()},
+          m.path_lists[0].list(),
+          count,
+          static_cast<uint>(first_row),
+          static_cast<uint>(settings.width),
+          static_cast<uint>(settings.glossy_rows),
+          sample_,
+          seed,
+          static_cast<uint>(settings.emissive_samples),
+          0u,
+          {m.mirrored.address()},
+          {m.own_rays.address()},
+          0u,
+          0u};
+}
+
 bool FramePassesVulkan::trace_coats(const Band& around, CoatKind kind, const Buffer& sky) {
   const std::uint32_t seed = kind == CoatKind::clearcoat ? clearcoat_seed(request_->settings.seed)
                                                          : request_->settings.seed;
@@ -140,28 +164,50 @@ bool FramePassesVulkan::trace_coats(const Band& around, CoatKind kind, const Buf
   const std::uint32_t first_index = static_cast<std::uint32_t>(first_row) * width;
   reserve<MirroredCoat>(keeps_mirrored ? pixels : 0, "coats in mirrors", memory_.mirrored);
   add("glossy", [=, this](Recorder& to) {
-    FrameMemory& m = memory_;
-    to.fill(m.path_lists[0].count, 0u);
+    to.fill(memory_.path_lists[0].count, 0u);
     to.barrier();
-    const CoatRaysArguments drawn = {{m.coat_points.address()},
-                                     {m.coat_surfaces.address()},
-                                     {m.coat_rays.address()},
-                                     m.path_lists[0].list(),
-                                     pixels,
-                                     static_cast<uint>(first_row),
-                                     width,
-                                     static_cast<uint>(request_->settings.glossy_rows),
-                                     sample_,
-                                     seed,
-                                     static_cast<uint>(request_->settings.emissive_samples),
-                                     keeps_mirrored ? 1u : 0u,
-                                     {m.mirrored.address()}};
+    CoatRaysArguments drawn = coat_rays_of(0, pixels, first_row, seed);
+    drawn.keeps_mirrored = keeps_mirrored ? 1u : 0u;
     to.run(kernels_.coat_rays, drawn, pixels);
   });
   path_pass_ = "glossy";
   path_seed_ = seed;
   if (!follow_all(1, first_index, sample_)) return false;
   reuse_coat_rays(around, sky, keeps_mirrored);
+  for (std::uint32_t ray = 1; ray < static_cast<std::uint32_t>(request_->settings.coat_rays);
+       ++ray) {
+    if (!add_further_rays(around, seed, ray)) break;
+  }
+  return true;
+}
+
+/// Traces ray number `ray`, 1 or more, of the band's pixels that need further ones, and adds their
+/// light. Returns whether there are any.
+bool FramePassesVulkan::add_further_rays(const Band& around, std::uint32_t seed,
+                                         std::uint32_t ray) {
+  const std::uint32_t before = static_cast<std::uint32_t>(band_.first_row - around.first_row) *
+                               static_cast<std::uint32_t>(request_->settings.width);
+  add("glossy", [=, this](Recorder& to) {
+    to.fill(memory_.path_lists[0].count, 0u);
+    to.barrier();
+    CoatRaysArguments drawn = coat_rays_of(before, pixels_, band_.first_row, seed);
+    drawn.ray = ray;
+    to.run(kernels_.coat_rays, drawn, pixels_);
+  });
+  if (!follow_all(1, first_pixel_, sample_ ^ (ray * kFurtherRaySalt))) return false;
+  add("glossy", [=, this](Recorder& to) {
+    const CoatRaysArguments of = coat_rays_of(before, pixels_, band_.first_row, seed);
+    const FurtherRaysArguments added = {of.points,
+                                        of.surfaces,
+                                        of.coat_rays,
+                                        of.own,
+                                        {memory_.coats.address()},
+                                        pixels_,
+                                        static_cast<uint>(request_->settings.coat_rays),
+                                        of.emitter_samples,
+                                        0u};
+    to.run(kernels_.further_rays, added, pixels_);
+  });
   return true;
 }
 
@@ -277,8 +323,12 @@ void FramePassesVulkan::reuse_coat_rays(const Band& around, const Buffer& sky,
   reserve<vec4>(pixels_, "coats", memory_.coats);
   const bool filters = request_->settings.denoise;
   reserve<CoatGuide>(filters ? pixels_ : 0, "guides of coats", memory_.coat_guides);
+  const bool keeps_own = request_->settings.coat_rays > 1;
+  reserve<OwnRayLight>(keeps_own ? pixels_ : 0, "light of own rays", memory_.own_rays);
   const uint has = (world_.scene().has_bright_sky() ? kReflectsSky : 0u) |
-                   (filters ? kFindsGuides : 0u) | (keeps_mirrored ? kKeepsMirrored : 0u);
+                   (filters ? kFindsGuides : 0u) | (keeps_mirrored ? kKeepsMirrored : 0u) |
+                   (keeps_own ? kKeepsOwn : 0u) |
+                   (request_->camera.orthographic ? kOrthographic : 0u);
   add("glossy", [=, this, &sky](Recorder& to) {
     const FrameMemory& m = memory_;
     const FrameSettings& settings = request_->settings;
@@ -289,11 +339,11 @@ void FramePassesVulkan::reuse_coat_rays(const Band& around, const Buffer& sky,
                                           {m.coats.address()},
                                           {m.coat_guides.address()},
                                           {m.mirrored.address()},
+                                          {m.own_rays.address()},
                                           {sky.address()},
                                           camera.position_ws,
                                           camera.axes[2],
                                           camera.half_view / camera.half_size.y,
-                                          camera.orthographic,
                                           static_cast<uint>(around.first_row),
                                           static_cast<uint>(band_.first_row),
                                           pixels_,
@@ -302,8 +352,7 @@ void FramePassesVulkan::reuse_coat_rays(const Band& around, const Buffer& sky,
                                           static_cast<uint>(settings.glossy_rows),
                                           sample_,
                                           has,
-                                          static_cast<uint>(settings.emissive_samples),
-                                          0u};
+                                          static_cast<uint>(settings.emissive_samples)};
     to.run(kernels_.coat_reuse, arguments, pixels_);
   });
 }

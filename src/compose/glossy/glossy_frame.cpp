@@ -65,6 +65,33 @@ void Glossy::start(const GlossySettings& settings, int first_row, std::size_t pi
   mirrored_.clear();
 }
 
+/// Draws the ray of pixel `i` of `seen`, whose place is among the paths. Returns whether there is
+/// one.
+bool Glossy::draw_ray(const GlossySettings& settings, const GBuffer& seen, std::size_t i, vec2 u,
+                      std::size_t place) {
+  const Surface& surface = seen.surfaces[i];
+  const CoatDraw drawn =
+      draw_coat_ray(surface.reflectance, make_frame(surface.normal_ws), seen.to_viewer_ws[i], u);
+  CoatRay& ray = rays_[place];
+  if (drawn.pdf <= 0.0f) {
+    ray.pdf = -1.0f;
+    return false;
+  }
+  ray.direction_ws = drawn.direction_ws;
+  ray.pdf = drawn.pdf;
+  paths_.paths[place] = {
+      vec3(1.0f),
+      drawn.pdf,
+      surface.reflectance.alpha,
+      first_stage(surface.reflectance.alpha, !mirrored_.empty()),
+      kForksNowhere,
+      emitter_density_scale(settings.world, settings.frame.emissive_samples, surface.position_ws)};
+  paths_.next[place] = ray_from(surface, {drawn.direction_ws, 1.0f});
+  paths_.cones[place] =
+      reflected_cone(pixel_cone(settings, surface, seen.to_viewer_ws[i]), drawn.pdf);
+  return true;
+}
+
 /// Draws the pixels' rays. Returns how many there are.
 std::uint64_t Glossy::send_rays(const GlossySettings& settings, std::span<const GlossyRows> around,
                                 bool keeps_mirrored) {
@@ -90,26 +117,7 @@ std::uint64_t Glossy::send_rays(const GlossySettings& settings, std::span<const 
         }
         const vec2 u =
             coat_uniforms(uvec2(i % width, y), sample, rows_between, settings.frame.seed);
-        const CoatDraw drawn = draw_coat_ray(surface.reflectance, make_frame(surface.normal_ws),
-                                             seen.to_viewer_ws[i], u);
-        if (drawn.pdf <= 0.0f) {
-          rays_[first + i].pdf = -1.0f;
-          continue;
-        }
-        rays_[first + i].direction_ws = drawn.direction_ws;
-        rays_[first + i].pdf = drawn.pdf;
-        paths_.paths[first + i] = {
-            vec3(1.0f),
-            drawn.pdf,
-            surface.reflectance.alpha,
-            first_stage(surface.reflectance.alpha, !mirrored_.empty()),
-            kForksNowhere,
-            emitter_density_scale(settings.world, settings.frame.emissive_samples,
-                                  surface.position_ws)};
-        paths_.next[first + i] = ray_from(surface, {drawn.direction_ws, 1.0f});
-        paths_.cones[first + i] =
-            reflected_cone(pixel_cone(settings, surface, seen.to_viewer_ws[i]), drawn.pdf);
-        ++count;
+        if (draw_ray(settings, seen, i, u, first + i)) ++count;
       }
       sent += count;
     });
@@ -148,6 +156,10 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
       if (path.stage == kStageCoatBehindGlass) {
         coat_distances_[i] = farther_seen(path, coat_distances_[i], hits[k].distance);
       }
+      if (!mirrored_.empty()) {
+        float& seen = mirrored_[i].seen_distance;
+        seen = seen_beyond(path, seen, hits[k].distance);
+      }
       if (hits[k].missed()) {
         leave_scene(sky_of(settings.world), rays[k].direction, paths_.cones[i].spread, path,
                     rays_[i]);
@@ -168,9 +180,9 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
                            settings.field != nullptr ? surface.gi_share : 0.0f, bounce,
                            surface.transmission, met_.surfaces[i].reflectance, path);
       if (!mirrored_.empty()) {
-        meet_mirrored_coat(met_.surfaces[i].reflectance, met_.coat_shares[i], surface.position_ws,
-                           surface.normal_ws, dot(surface.normal_ws, met_.to_viewer_ws[i]),
-                           hits[k].distance, path, mirrored_[i]);
+        meet_mirrored_coat(surface.transmission, met_.surfaces[i].reflectance, met_.coat_shares[i],
+                           surface.position_ws, surface.normal_ws, met_.to_viewer_ws[i], path,
+                           mirrored_[i]);
       }
     }
   });
@@ -265,7 +277,7 @@ std::uint64_t Glossy::reflect(const GlossySettings& settings, std::span<const Gl
   const std::uint64_t going = send_rays(settings, around, keeps_mirrored);
   const std::uint64_t traced = follow_all(settings, going, 1, {});
   reuse_.reflect(settings, around, band, rays_, mirrored_, light);
-  return traced;
+  return traced + add_further_rays(settings, band, light);
 }
 
 GlossySettings glossy_settings(const FrameRequest& request, const FrameSettings& frame,
@@ -281,7 +293,9 @@ GlossySettings glossy_settings(const FrameRequest& request, const FrameSettings&
 bool filters_mirrored_coats(const FrameRequest& request) {
   if (!request.settings.denoise || !traces_coats(request)) return false;
   return std::ranges::any_of(request.world.scene().materials, [](const Material& material) {
-    return !material.lambert && material.roughness * material.roughness <= kMirrorAlpha;
+    const bool textured = material.metallic_roughness_texture.texture >= 0;
+    return !material.lambert &&
+           (textured || material.roughness * material.roughness <= kMirrorAlpha);
   });
 }
 

@@ -64,6 +64,12 @@ class Glossy {
   void keep_behind(const GlossySettings& settings, const KeptBehind& kept);
   std::uint64_t send_rays(const GlossySettings& settings, std::span<const GlossyRows> around,
                           bool keeps_mirrored);
+  bool draw_ray(const GlossySettings& settings, const GBuffer& seen, std::size_t i, vec2 u,
+                std::size_t place);
+  std::uint64_t send_further_rays(const GlossySettings& settings, const GlossyRows& band,
+                                  const CoatLight& light, uint ray);
+  std::uint64_t add_further_rays(const GlossySettings& settings, const GlossyRows& band,
+                                 CoatLight& light);
   /// Adds the light of sources behind rough surfaces, which pixels (bounce 0) or paths hit. Returns
   /// the number of rays traced.
   std::uint64_t sample_lights_behind(const GlossySettings& settings, const GBuffer& seen,

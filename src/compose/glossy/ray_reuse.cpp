@@ -9,34 +9,26 @@
 namespace lambent {
 namespace {
 
-/// Rays of the rows around a band.
-struct RaysAround {
-  using CoatViewRef = const RaysAround&;
+float distance_of(const CoatRay& ray) {
+  return seen_distance(ray);
+}
+float distance_of(const MirroredCoat& coat) {
+  return seen_distance(coat.alpha, coat.seen_distance);
+}
+
+/// Rays, or coats in mirrors, of the pixels of the rows around a band.
+template <class Record>
+struct SeenAround {
+  using CoatViewRef = const SeenAround&;
   static float fetch_distance(CoatViewRef view, ivec2 pixel) {
     const int place = (pixel.y - view.first_row) * view.picture_size.x + pixel.x;
-    return seen_distance(view.coat_rays[static_cast<std::size_t>(place)]);
+    return distance_of(view.records[static_cast<std::size_t>(place)]);
   }
   static ivec2 view_size(CoatViewRef view) { return view.picture_size; }
 
 #include "glossy/seen_distance.inl.h"
 
-  std::span<const CoatRay> coat_rays;
-  int first_row;
-  ivec2 picture_size;  // [pixels]
-};
-
-/// What the coats in the mirrors of the rows around a band reflect.
-struct MirroredAround {
-  using CoatViewRef = const MirroredAround&;
-  static float fetch_distance(CoatViewRef view, ivec2 pixel) {
-    const int place = (pixel.y - view.first_row) * view.picture_size.x + pixel.x;
-    return seen_distance(view.coats[static_cast<std::size_t>(place)]);
-  }
-  static ivec2 view_size(CoatViewRef view) { return view.picture_size; }
-
-#include "glossy/seen_distance.inl.h"
-
-  std::span<const MirroredCoat> coats;
+  std::span<const Record> records;
   int first_row;
   ivec2 picture_size;  // [pixels]
 };
@@ -61,6 +53,22 @@ CoatLobe lobe_of(const GBuffer& pixels, std::size_t pixel) {
   const Surface& surface = pixels.surfaces[pixel];
   return make_coat_lobe(surface.position_ws, surface.geometric_normal_ws, surface.normal_ws,
                         pixels.to_viewer_ws[pixel], surface.reflectance.alpha);
+}
+
+CoatReceiver receiver_of(const GlossySettings& settings, const GBuffer& pixels, std::size_t pixel,
+                         const CoatRay& own) {
+  const Surface& surface = pixels.surfaces[pixel];
+  CoatReceiver at{
+      lobe_of(pixels, pixel),
+      coat_under_layers(surface.reflectance, dot(surface.normal_ws, pixels.to_viewer_ws[pixel])),
+      inverse_plane_tolerance(settings.camera, surface.position_ws),
+      own,
+      {},
+      {},
+      0.0f,
+      emitter_density_scale(settings.world, settings.frame.emissive_samples, surface.position_ws)};
+  find_lobe(at);
+  return at;
 }
 
 /// Writes all that neighbours read into planes.
@@ -95,11 +103,12 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
   const GBuffer& pixels = band.pixels;
   reflected.light.assign(pixels.size(), vec4(0.0f));
   reflected.guides.assign(settings.frame.denoise ? pixels.size() : 0, {vec3(0.0f), 0.0f});
+  reflected.own.assign(settings.frame.coat_rays > 1 ? pixels.size() : 0, {vec3(0.0f), 0.0f});
   reflected.mirrored.assign(mirrored.empty() ? 0 : pixels.size(), no_mirrored_coat());
   parallel_chunks(pixels.size() / width, 1, [&](std::size_t begin, std::size_t) {
     const int y = band.first_row + static_cast<int>(begin);
-    RaysAround seen{rays, first_row, {width, settings.frame.height}};
-    MirroredAround in_mirrors{mirrored, first_row, {width, settings.frame.height}};
+    SeenAround<CoatRay> seen{rays, first_row, {width, settings.frame.height}};
+    SeenAround<MirroredCoat> in_mirrors{mirrored, first_row, {width, settings.frame.height}};
     std::vector<CoatReceiver> receivers;
     std::vector<int> places;
     RowPlanes asked, sums;
@@ -108,21 +117,9 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
     for (int x = 0; x < width; ++x) {
       const std::size_t i = begin * width + x;
       if (pixels.coat_shares[i].coat <= 0.0f) continue;
-      const Surface& surface = pixels.surfaces[i];
       const CoatRay& own = rays[static_cast<std::size_t>(y - first_row) * width + x];
-      CoatReceiver at{
-          lobe_of(pixels, i),
-          coat_under_layers(surface.reflectance, dot(surface.normal_ws, pixels.to_viewer_ws[i])),
-          inverse_plane_tolerance(settings.camera, surface.position_ws),
-          own,
-          {},
-          {},
-          0.0f,
-          emitter_density_scale(settings.world, settings.frame.emissive_samples,
-                                surface.position_ws)};
-      find_lobe(at);
-      set_receiver(asked, 0, x, at);
-      receivers.push_back(at);
+      receivers.push_back(receiver_of(settings, pixels, i, own));
+      set_receiver(asked, 0, x, receivers.back());
       places.push_back(x);
     }
     if (receivers.empty()) return;
@@ -133,6 +130,7 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
       const float share = pixels.coat_shares[i].coat;
       const ReflectedRays found = reflected_rays(receivers[k], sums_of(sums, 0, places[k]));
       reflected.light[i] = share * light_by_rays(found.light);
+      if (!reflected.own.empty()) reflected.own[i] = {found.own, share * found.own_share};
       if (!mirrored.empty()) {
         const std::size_t place = static_cast<std::size_t>(y - first_row) * width + places[k];
         MirroredCoat& coat = reflected.mirrored[i];

@@ -37,17 +37,23 @@ struct CoatLight {
   /// The coats that mirrors show. `light` does not include theirs. Empty where that is not kept
   /// separately.
   std::vector<MirroredCoat> mirrored;
+  std::vector<OwnRayLight> own;  ///< Empty where pixels have one ray.
 
   bool empty() const { return light.empty(); }
   void clear() {
     light.clear();
     guides.clear();
     mirrored.clear();
+    own.clear();
   }
 };
 
 /// The specular lobe of a pixel.
 CoatLobe lobe_of(const GBuffer& pixels, std::size_t pixel);
+
+/// A pixel whose coat reflects rays, among them its own.
+CoatReceiver receiver_of(const GlossySettings& settings, const GBuffer& pixels, std::size_t pixel,
+                         const CoatRay& own);
 
 /// Has the pixels of a band reflect the rays around them. Memory is reused from band to band.
 class RayReuse {

@@ -52,7 +52,7 @@ std::vector<ProbeGrid> grids_of(std::span<const Volume> volumes);
 ProbeGrid still_grid(const FieldGrid& grid);
 
 /// The grids of a field's volumes as if none of them scrolled: in the same places, but not in the
-/// same order in memory.
+/// same order in memory, and with weights that fall to 0 outside of the probes.
 std::vector<ProbeGrid> still_grids(std::span<const FieldGrid> grids);
 
 /// The grid of a volume, for the public interface.

@@ -28,6 +28,10 @@ void main() {
     args.coat_distances.at[i] =
         farther_seen(path, args.coat_distances.at[i], args.hits.at[k].distance);
   }
+  if (path.stage == kStageBeyondMirroredCoat) {
+    args.mirrored.at[i].seen_distance =
+        seen_beyond(path, args.mirrored.at[i].seen_distance, args.hits.at[k].distance);
+  }
   if ((surface.flags & kSurfaceMissed) != 0u) {
     if (path.pdf == kNoLightSampling) {
       add_radiance(path, surface.emission, ray);
@@ -49,10 +53,10 @@ void main() {
   float gi_share = args.has_field != 0u ? surface.gi_share : 0.0f;
   surface.coat_shares = regularize_lobes(n_dot_v, gi_share, args.bounce, surface.transmission,
                                          surface.reflectance, path);
-  if (path.stage == kStageOwnMirror || path.stage == kStageBeyondMirroredCoat) {
+  if (path.stage == kStageOwnMirror) {
     MirroredCoat coat = args.mirrored.at[i];
-    meet_mirrored_coat(surface.reflectance, surface.coat_shares, point.position_ws,
-                       point.normal_ws, n_dot_v, args.hits.at[k].distance, path, coat);
+    meet_mirrored_coat(surface.transmission, surface.reflectance, surface.coat_shares,
+                       point.position_ws, point.normal_ws, surface.to_viewer_ws, path, coat);
     args.mirrored.at[i] = coat;
   }
   if (samples_lights_behind(path, surface.transmission)) surface.flags |= kSurfaceSamplesBehind;

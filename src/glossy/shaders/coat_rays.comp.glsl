@@ -17,12 +17,18 @@ void main() {
   if (keeps_mirrored) args.mirrored.at[i] = no_mirrored_coat();
   PixelSurfaceRecord surface = args.surfaces.at[i];
   uvec2 pixel = uvec2(i % args.width, args.first_row + i / args.width);
-  if (!traces_coat(surface.reflectance, surface.coat_shares.coat, int(pixel.y), args.sample_index,
-                   args.rows)) {
-    return;
+  vec2 u;
+  if (args.ray > 0u) {
+    if (!needs_further_rays(args.own.at[i], surface.reflectance.alpha)) return;
+    u = further_coat_uniforms(pixel, args.sample_index, args.ray, args.seed);
+  } else {
+    if (!traces_coat(surface.reflectance, surface.coat_shares.coat, int(pixel.y),
+                     args.sample_index, args.rows)) {
+      return;
+    }
+    u = coat_uniforms(pixel, args.sample_index, args.rows, args.seed);
   }
   LitPointRecord point = args.points.at[i];
-  vec2 u = coat_uniforms(pixel, args.sample_index, args.rows, args.seed);
   CoatDraw drawn =
       draw_coat_ray(surface.reflectance, make_frame(point.normal_ws), surface.to_viewer_ws, u);
   if (drawn.pdf <= 0.0f) {

@@ -41,7 +41,9 @@ struct InMirrors {
 };
 #define CoatViewRef InMirrors
 float fetch_distance(InMirrors view, ivec2 pixel) {
-  return seen_distance(view.rows.mirrored.at[index_of(view.rows, pixel)]);
+  // Reads no member that is written here
+  uint i = index_of(view.rows, pixel);
+  return seen_distance(view.rows.mirrored.at[i].alpha, view.rows.mirrored.at[i].seen_distance);
 }
 ivec2 view_size(InMirrors view) {
   return view_size(view.rows);
@@ -52,6 +54,7 @@ void main() {
   uint k = gl_GlobalInvocationID.x;
   if (k >= args.count) return;
   args.light.at[k] = vec4(0.0f);
+  if ((args.has & kKeepsOwn) != 0u) args.own.at[k] = OwnRayLight(vec3(0.0f), 0.0f);
   if ((args.has & kFindsGuides) != 0u) args.guides.at[k] = CoatGuide(vec3(0.0f), 0.0f);
   ivec2 pixel = ivec2(k % args.width, args.band_row + k / args.width);
   uint i = index_of(args, pixel);
@@ -63,7 +66,7 @@ void main() {
   camera.position_ws = args.camera_ws;
   camera.half_view = args.pixel_width;
   camera.half_size = vec2(1.0f);
-  camera.orthographic = args.orthographic;
+  camera.orthographic = (args.has & kOrthographic) != 0u ? 1u : 0u;
   CoatReceiver at;
   at.lobe = fetch_lobe(args, pixel);
   at.reflectance =
@@ -75,10 +78,14 @@ void main() {
   float share = surface.coat_shares.coat;
   ReflectedRays found = reuse_rays(args, pixel, at, args.sample_index, args.rows);
   vec4 light = share * light_by_rays(found.light);
+  if ((args.has & kKeepsOwn) != 0u) {
+    args.own.at[k] = OwnRayLight(found.own, share * found.own_share);
+  }
   if ((args.has & kKeepsMirrored) != 0u) {
     MirroredCoat coat = mirrored_light(at, share, args.mirrored.at[i]);
     args.mirrored.at[i].position_ws = coat.position_ws;
     args.mirrored.at[i].normal_ws = coat.normal_ws;
+    args.mirrored.at[i].albedo = coat.albedo;
     args.mirrored.at[i].light = coat.light;
     if (coat.alpha > 0.0f) {
       args.mirrored.at[i].inverse_seen_distance =
