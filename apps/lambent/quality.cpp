@@ -77,6 +77,7 @@ FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& siz
   if (options.gather_rays >= 0) frame.gather_rays = options.gather_rays;
   if (leaves_out(options, "gather")) frame.gather_rays = 0;
   if (options.glossy_rows >= 0) frame.glossy_rows = options.glossy_rows;
+  if (options.coat_rays > 0) frame.coat_rays = options.coat_rays;
   if (leaves_out(options, "glossy")) frame.glossy_rows = 0;
   if (options.froxel_pixels > 0) frame.fog.froxel_pixels = options.froxel_pixels;
   if (leaves_out(options, "denoise")) frame.denoise = false;
@@ -138,6 +139,9 @@ Expected<void> check_quality(const RenderOptions& options) {
   }
   if (options.glossy_rows > 0 && leaves_out(options, "glossy")) {
     return fail("--glossy-rows", "", "does not go with --without glossy");
+  }
+  if (options.coat_rays > 0 && (options.glossy_rows == 0 || leaves_out(options, "glossy"))) {
+    return fail("--coat-rays", "", "needs reflections that are traced");
   }
   return {};
 }

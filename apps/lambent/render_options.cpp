@@ -83,6 +83,12 @@ void add_field_render_options(CLI::App& command, RenderOptions& o) {
                   "(the quality's)")
       ->check(whole_number(0, 8))
       ->type_name("N");
+  command
+      .add_option("--coat-rays", o.coat_rays,
+                  "Rays of reflections at pixels of thin or curved metal, up to 64 "
+                  "(the quality's)")
+      ->check(whole_number(1, 64))
+      ->type_name("N");
   command.add_option("--field", o.field_file, "Start from the field in this file, of lambent bake")
       ->type_name("FILE");
   command

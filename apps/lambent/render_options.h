@@ -36,6 +36,7 @@ struct RenderOptions {
   int samples = 0;                   // 0: the quality's, or the reference's default
   int gather_rays = -1;              // -1: the quality's
   int glossy_rows = -1;              // -1: the quality's
+  int coat_rays = 0;                 // 0: the quality's
   int froxel_pixels = 0;             // 0: the quality's
   int bounces = -1;                  // -1: all
   std::uint32_t seed = 1;

@@ -55,8 +55,9 @@ struct FrameSettings {
   /// Whether gathered light, traced reflections, the light through glass and direct light of
   /// emissive surfaces are filtered (lambent/denoise.h). Light of directional, point and spot
   /// lights has no noise and is not filtered. Parts of a picture then need 63 more rows on each
-  /// side, which are traced, too, and each pixel takes 360 bytes. With glass these are 65 rows,
-  /// with rough glass 130, and 560 bytes.
+  /// side, which are traced, too, and each pixel takes 360 bytes, and 84 more where surfaces are
+  /// smooth enough to be mirrors. With glass these are 65 rows, with rough glass 130, and 560
+  /// bytes.
   bool denoise = false;
   /// Number of the renderer's pictures over which light is averaged before it is filtered, 1 to
   /// 1000; 1: no averaging. Light through glass is not averaged. More pictures leave less noise in

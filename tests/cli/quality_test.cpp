@@ -88,9 +88,11 @@ TEST_F(QualityOption, AveragesLightOverFramesOfASequence) {
 }
 
 TEST_F(QualityOption, RefusesWhatDoesNotGoTogether) {
-  const std::pair<const char*, const char*> cases[] = {{"--without denoice", "--without"},
-                                                       {"--quality best", "--quality"},
-                                                       {"--gather 4 --without gather", "--gather"}};
+  const std::pair<const char*, const char*> cases[] = {
+      {"--without denoice", "--without"},
+      {"--quality best", "--quality"},
+      {"--gather 4 --without gather", "--gather"},
+      {"--coat-rays 2 --without glossy", "--coat-rays"}};
   for (const auto& [options, named] : cases) {
     const test::ProgramResult result =
         run_program("render " + kQuick + options + " -o " + directory.file("a.exr"));
