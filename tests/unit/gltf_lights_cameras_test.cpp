@@ -167,13 +167,26 @@ TEST(GltfLights, AndCamerasOutOfReachNameTheirNode) {
   EXPECT_THAT(error_of(builder.load()), HasSubstr("nodes[0]: the light is beyond 1e9 m"));
 }
 
+TEST(GltfCameras, FieldsOfViewInDegreesAreRepaired) {
+  GltfBuilder builder;
+  builder.append("cameras",
+                 {{"type", "perspective"}, {"perspective", {{"yfov", 60}, {"znear", 1}}}});
+  builder.show_node({{"camera", 0}});
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  EXPECT_FLOAT_EQ(scene->cameras.at(0).vertical_fov, glm::radians(60.0f));
+  EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("degrees")));
+  builder.root["cameras"][0]["perspective"]["yfov"] = 180;
+  EXPECT_THAT(error_of(builder.load()), HasSubstr("yfov: is 180"));
+}
+
 TEST(GltfCameras, ShapesOutOfRangeAreRefusedOrIgnored) {
   GltfBuilder builder;
   builder.append("cameras",
                  {{"type", "perspective"}, {"perspective", {{"yfov", 1e-20}, {"znear", 1}}}});
   builder.show_node({{"camera", 0}});
   EXPECT_THAT(error_of(builder.load()),
-              HasSubstr("yfov: is 1e-20, which is not within 0.001 to 3.14059"));
+              HasSubstr("yfov: is 1e-20, which is not within 0.001 to 179.9"));
   builder.root["cameras"][0]["perspective"] = {{"yfov", 1}, {"znear", 1}, {"aspectRatio", 1e30}};
   const Expected<Scene> scene = builder.load();
   ASSERT_TRUE(scene) << error_of(scene);

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "scene/gltf/document/accessors.h"
+#include "scene/gltf/lights_cameras.h"
 #include "scene/validate.h"
 
 namespace lambent::gltf {
@@ -209,7 +210,7 @@ void MotionImporter::add_camera(int node, int camera) {
   RigCamera rigged;
   rigged.camera = camera;
   rigged.node = rig_node_of_[node];
-  rigged.vertical_fov = static_cast<float>(from.perspective.yfov);
+  rigged.vertical_fov = vertical_fov_of(from);
   rigged.vertical_extent = static_cast<float>(2.0 * std::abs(from.orthographic.ymag));
   rig_.cameras.push_back(rigged);
   camera_sources_.push_back(source);

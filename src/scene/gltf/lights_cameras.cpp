@@ -55,6 +55,11 @@ Expected<Light> import_light(Document& document, int index, int node,
   return light;
 }
 
+float vertical_fov_of(const tinygltf::Camera& camera) {
+  const auto fov = static_cast<float>(camera.perspective.yfov);
+  return fov > kMaxFov ? glm::radians(fov) : fov;
+}
+
 Expected<Camera> import_camera(Document& document, int node, const glm::mat4& world_from_node) {
   const int index = document.model.nodes[node].camera;
   const tinygltf::Camera& source = document.model.cameras[index];
@@ -62,7 +67,9 @@ Expected<Camera> import_camera(Document& document, int node, const glm::mat4& wo
   Camera camera;
   camera.name = source.name.empty() ? document.model.nodes[node].name : source.name;
   if (source.type == "perspective" && source.perspective.yfov > 0.0) {
-    camera.vertical_fov = static_cast<float>(source.perspective.yfov);
+    camera.vertical_fov = vertical_fov_of(source);
+    document.repaired("cameras' fields of view of more than pi were taken as degrees",
+                      static_cast<float>(source.perspective.yfov) > kMaxFov, place);
     camera.aspect = static_cast<float>(source.perspective.aspectRatio);
   } else if (source.type == "orthographic" && source.orthographic.xmag != 0.0 &&
              source.orthographic.ymag != 0.0) {

@@ -44,7 +44,8 @@ inline constexpr double kQuarterTurn =
     1.5707964;  // pi/2 rounded up to what files hold as 32-bit floats.
 inline constexpr bool kRequired = true;
 inline constexpr double kSmallestFov = 1e-3;      // kMinFov before it is rounded to a float.
-inline constexpr double kLargestFov = 3.1405926;  // kMaxFov before that.
+// Radians, but some exporters write degrees, which are repaired.
+inline constexpr double kLargestFov = 179.9;
 
 inline constexpr Rule kRules[] = {
     {"root", "asset", Kind::object, "asset", 0, 0, kRequired},
