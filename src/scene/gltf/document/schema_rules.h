@@ -43,7 +43,7 @@ inline constexpr double kTiny = 1e-30;                  // "Greater than zero".
 inline constexpr double kQuarterTurn =
     1.5707964;  // pi/2 rounded up to what files hold as 32-bit floats.
 inline constexpr bool kRequired = true;
-inline constexpr double kSmallestFov = 1e-3;      // kMinFov before it is rounded to a float.
+inline constexpr double kSmallestFov = 1e-3;  // kMinFov before it is rounded to a float.
 // Radians, but some exporters write degrees, which are repaired.
 inline constexpr double kLargestFov = 179.9;
 
