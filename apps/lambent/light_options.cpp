@@ -169,8 +169,9 @@ Expected<std::string> add_first_light(const LightOptions& options, const Camera&
   if (const auto changes = world.update(); !changes) return tl::unexpected(changes.error());
   if (options.light != "auto") return describe(light, scene, false);
   const std::string chosen = describe(light, scene, false);
-  if (light == FirstLight::sky)
+  if (light == FirstLight::sky) {
     return chosen + ", as it brings none (--light scene leaves it black)";
+  }
   const bool emits = std::ranges::any_of(
       scene.materials, [](const Material& m) { return m.emission != glm::vec3(0.0f); });
   if (emits) return chosen + ", as what surfaces emit lights little of the view (--light scene)";

@@ -49,8 +49,8 @@ struct FrameSettings {
   /// are rough. Needs a field.
   int glossy_rows = 2;
   /// Specular rays of a pixel, 1 to 64, where rays of neighbouring pixels fit its lobe too little
-  /// to help: on thin and curved metal. Noise there falls with the square root. Needs
-  /// `glossy_rows`.
+  /// to help: on thin and curved metal. Noise there falls with the square root; each costs as much
+  /// as the first one. Needs `glossy_rows`.
   int coat_rays = 1;
   /// Whether gathered light, traced reflections, the light through glass and direct light of
   /// emissive surfaces are filtered (lambent/denoise.h). Light of directional, point and spot

@@ -110,17 +110,17 @@ void keep_coats(const KeptBand& band, const GBuffer& surfaces, const CoatLight& 
   });
 }
 
-/// Stores what the coats that a band's mirrors show reflect. `pixels`: the number of traced pixels.
+/// Stores what the coats that a band's mirrors show reflect. `pixels`: the number of traced pixels;
+/// 0: that light is not filtered.
 void keep_mirrored(const KeptBand& band, const CameraRecord& camera, std::size_t pixels,
                    FilteredPixels& kept) {
   const GBuffer& gbuffer = band.light.gbuffer;
   FilteredCoats& coats = kept.mirrored;
-  const bool filters = band.light.filters_mirrored;
-  coats.resize(filters ? pixels : 0);
-  coats.normals_ws.resize(coats.light.size());
-  kept.mirrored_positions_ws.resize(coats.light.size());
-  kept.mirrored_depths.resize(coats.light.size());
-  if (!filters) return;
+  coats.resize(pixels);
+  coats.normals_ws.resize(pixels);
+  kept.mirrored_positions_ws.resize(pixels);
+  kept.mirrored_depths.resize(pixels);
+  if (pixels == 0) return;
   parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t pixel = band.first + i;
@@ -260,7 +260,7 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
   const bool emitters = !light.direct.emitters.empty(), gathered = light.gathered != nullptr;
   const CameraRecord camera = camera_record(request.camera, 1, 1);
   keep_all_coats({light, first}, count, pixels);
-  keep_mirrored({light, first}, camera, count, pixels);
+  keep_mirrored({light, first}, camera, filters_mirrored_coats(request) ? count : 0, pixels);
   if (emitters) {
     keep_highlights(light, first, count, pixels);
   } else {

@@ -70,7 +70,6 @@ struct BandToFilter {
   const CoatLight* coats = nullptr;                   ///< Null: no coat has rays.
   bool filters_clearcoats = false;                    ///< Requires `coats`.
   const ClearcoatsShown* clearcoats = nullptr;        ///< Null: the band has none.
-  bool filters_mirrored = false;                      ///< Requires `coats`.
   const TransmittedLight* transmitted = nullptr;      ///< Null: no surface transmits light.
   std::span<const glm::vec4> fog = {};  ///< See fog_along(); one a pixel; empty: there is no fog.
 };

@@ -296,7 +296,6 @@ class FramePassesCpu final : public FramePasses {
       if (band.filters_clearcoats && !light_.clearcoats.empty()) {
         band.clearcoats = &glossy_.clearcoats;
       }
-      band.filters_mirrored = filters_mirrored_coats(request());
       if (light_.is_filtered) band.gathered = &gathered_, band.looked_up = &light_.irradiance;
       if (light_.transmitted_is_filtered) band.transmitted = &light_.transmitted;
       keep_pixels(request(), band_, band, to_filter_);

@@ -108,8 +108,8 @@ struct FrameKernels {
   vulkan::Kernel add_filtered{device, shaders::add_filtered_comp(), "add filtered"};
 };
 
-/// Light that is filtered, of the traced rows: 392 bytes a pixel, and 96
-/// more where mirrors may show coats. See FilteredPixelsRecord.
+/// Light that is filtered, of the traced rows: 392 bytes a pixel, and 96 more where mirrors may
+/// show coats. See FilteredPixelsRecord.
 struct FilteredBuffers {
   FilteredPixelsRecord record;
   vulkan::Buffer addresses;  ///< Holds `record`.

@@ -9,6 +9,15 @@ layout(push_constant, scalar) uniform Push {
   AddFilteredArguments args;
 };
 
+/// Adds the filtered light of coats to the layers of a pixel.
+void show_coat(uint i, LobeGuideArray lobes, Vec3Array albedo, Vec3Array filtered,
+               inout PixelLayers layers) {
+  if (lobes.at[i].sharpness <= 0.0f) return;
+  vec3 glossy = args.share * albedo.at[i] * filtered.at[i];
+  layers.glossy += glossy;
+  layers.all += glossy;
+}
+
 void main() {
   uint k = gl_GlobalInvocationID.x;
   if (k >= args.count) return;
@@ -23,23 +32,16 @@ void main() {
     layers.glossy += glossy;
     layers.all += direct + glossy;
   }
-  if (args.coats != 0u && args.pixels.at[0].coat_lobes.at[i].sharpness > 0.0f) {
-    vec3 glossy =
-        args.share * args.pixels.at[0].coat_albedo.at[i] * args.pixels.at[0].filtered_coats.at[i];
-    layers.glossy += glossy;
-    layers.all += glossy;
+  FilteredPixelsRecord pixels = args.pixels.at[0];
+  if (args.coats != 0u) {
+    show_coat(i, pixels.coat_lobes, pixels.coat_albedo, pixels.filtered_coats, layers);
   }
-  if (args.clearcoats != 0u && args.pixels.at[0].clearcoat_lobes.at[i].sharpness > 0.0f) {
-    vec3 glossy = args.share * args.pixels.at[0].clearcoat_albedo.at[i] *
-                  args.pixels.at[0].filtered_clearcoats.at[i];
-    layers.glossy += glossy;
-    layers.all += glossy;
+  if (args.clearcoats != 0u) {
+    show_coat(i, pixels.clearcoat_lobes, pixels.clearcoat_albedo, pixels.filtered_clearcoats,
+              layers);
   }
-  if (args.mirrored != 0u && args.pixels.at[0].mirrored_lobes.at[i].sharpness > 0.0f) {
-    vec3 glossy = args.share * args.pixels.at[0].mirrored_albedo.at[i] *
-                  args.pixels.at[0].filtered_mirrored.at[i];
-    layers.glossy += glossy;
-    layers.all += glossy;
+  if (args.mirrored != 0u) {
+    show_coat(i, pixels.mirrored_lobes, pixels.mirrored_albedo, pixels.filtered_mirrored, layers);
   }
   if (args.gathered != 0u && args.pixels.at[0].received_weight.at[i] != 0.0f) {
     vec3 irradiance = args.share * args.pixels.at[0].filtered_gathered.at[i];
