@@ -6,41 +6,97 @@
 namespace lambent {
 namespace {
 
-// A ground dwarfs the rest where the rest spans less than this share of it; and a sky, which
-// encloses the rest, where it spans less than this share. Rooms seldom do.
+// A ground or another backdrop dwarfs the rest where the rest spans less than this share of it; and
+// a sky, which encloses the rest, where it spans less than this share. Rooms seldom do.
 constexpr float kDwarfedByGround = 0.3f, kDwarfedBySky = 0.1f;
-// Greatest height of a ground, as a share of its width.
-constexpr float kFlatGroundShare = 0.05f;
+// Greatest thickness of a ground or a wall, as a share of its width.
+constexpr float kThinShare = 0.05f;
+// Things are sunk into the ground below them by at most this share of its diagonal.
+constexpr float kSunkShare = 0.02f;
+// Number of rays from above the rest, half of which go up, and the largest share of these that end
+// at a backdrop: the sweep of a photographer's studio is behind and below what stands on it,
+// whereas walls and skies are around it.
+constexpr int kRaysAround = 128;
+constexpr float kMaxBackdrop = 0.5f;
+// Panels of light have at most as many triangles as a box.
+constexpr std::size_t kMaxPanelTriangles = 12;
 // Strays are at least this many diagonals of the rest, and of each of them, away from the rest: in
 // a picture of all, there would be specks alone.
 constexpr float kStrayDistance = 10.0f;
 // Strays have fewer triangles than this share of the scene's.
 constexpr double kMaxStrayShare = 0.5;
 
-/// Among the `kept` smallest parts, the number of the largest ones that are grounds and skies and
-/// dwarf the rest; 0: there are none. `around[i]` contains the parts order[0] to order[i].
-std::size_t count_dwarfing(std::span<const Bounds> boxes, std::span<const std::uint32_t> order,
-                           std::span<const Bounds> around, std::size_t kept) {
-  bool sky = false;
+/// Whether a box is flat along an axis.
+bool is_flat(const Bounds& box, int axis) {
+  const glm::vec3 size = box.max - box.min;
+  return size[axis] <= kThinShare * std::max(size[(axis + 1) % 3], size[(axis + 2) % 3]);
+}
+
+/// Whether a box reaches as far as `rest`, or farther, along an axis. `rest` may be sunk into it.
+bool spans(const Bounds& box, const Bounds& rest, int axis) {
+  const float sunk = axis == 1 ? kSunkShare * diagonal(box) : 0.0f;
+  return box.min[axis] - sunk <= rest.min[axis] && box.max[axis] >= rest.max[axis];
+}
+
+/// Whether a box stands upright and flat beside `rest`, and behind all of it.
+bool is_wall_beside(const Bounds& box, const Bounds& rest) {
+  for (const int axis : {0, 2}) {
+    if (!is_flat(box, axis) || !spans(box, rest, 1) || !spans(box, rest, 2 - axis)) continue;
+    if (rest.min[axis] >= box.min[axis] || rest.max[axis] <= box.max[axis]) return true;
+  }
+  return false;
+}
+
+bool encloses(const Bounds& box, const Bounds& rest) {
+  return spans(box, rest, 0) && spans(box, rest, 1) && spans(box, rest, 2);
+}
+
+/// Whether most of the space above `rest` is free of the instances `backdrop`.
+bool is_open_above(const World& world, const Bounds& rest,
+                   std::span<const std::uint32_t> backdrop) {
+  glm::vec3 place = 0.5f * (rest.min + rest.max);
+  place.y = rest.max.y + kSunkShare * diagonal(rest);
+  int up = 0, met = 0;
+  std::vector<Ray> rays;
+  for (const Ray& ray : rays_around(place, kRaysAround)) {
+    if (ray.direction.y > 0.0f) rays.push_back(ray);
+  }
+  for (const Hit& hit : trace(world, rays)) {
+    ++up;
+    if (hit.missed()) continue;
+    met += static_cast<int>(std::count(backdrop.begin(), backdrop.end(), hit.instance));
+  }
+  return static_cast<float>(met) <= kMaxBackdrop * static_cast<float>(up);
+}
+
+/// Among the `kept` smallest parts, the number of the largest ones that are grounds, skies and
+/// other backdrops and dwarf the rest; 0: there are none. `around[i]` contains the parts order[0]
+/// to order[i].
+std::size_t count_dwarfing(const World& world, std::span<const Bounds> boxes,
+                           std::span<const std::uint32_t> order, std::span<const Bounds> around,
+                           std::size_t kept) {
+  bool grounds = true, skies = true, stands = false;
   for (std::size_t left = kept; left-- > 1;) {
     const Bounds& rest = around[left - 1];
     const Bounds& largest = boxes[order[left]];
-    const glm::vec3 size = largest.max - largest.min;
-    const bool flat = size.y <= kFlatGroundShare * std::max(size.x, size.z);
-    const bool encloses = glm::all(glm::lessThanEqual(largest.min, rest.min)) &&
-                          glm::all(glm::greaterThanEqual(largest.max, rest.max));
-    if (!flat && !encloses) return 0;
-    sky = sky || !flat;
+    const bool ground = is_flat(largest, 1);
+    const bool around_rest = encloses(largest, rest);
+    if (!ground && !around_rest && !is_wall_beside(largest, rest)) return 0;
+    grounds = grounds && ground;
+    stands = stands || ground || around_rest;
+    skies = skies && (ground || around_rest);
     const float share = diagonal(rest) / diagonal(around[kept - 1]);
     if (share == 0.0f) return 0;
-    if (share < (sky ? kDwarfedBySky : kDwarfedByGround)) return kept - left;
+    if (skies && share < kDwarfedBySky) return kept - left;
+    if (share >= kDwarfedByGround || !stands) continue;
+    if (grounds || is_open_above(world, rest, order.subspan(left, kept - left))) return kept - left;
   }
   return 0;
 }
 
-/// Removes grounds and skies from `members`, and adds their boxes to `site`.
-void drop_backdrops(std::span<const Bounds> boxes, std::vector<std::uint32_t>& members,
-                    Bounds& site) {
+/// Removes grounds, skies and other backdrops from `members`, and adds their boxes to `site`.
+void drop_backdrops(const World& world, std::span<const Bounds> boxes,
+                    std::vector<std::uint32_t>& members, Bounds& site) {
   std::stable_sort(members.begin(), members.end(), [&](std::uint32_t a, std::uint32_t b) {
     return diagonal(boxes[a]) < diagonal(boxes[b]);
   });
@@ -52,7 +108,7 @@ void drop_backdrops(std::span<const Bounds> boxes, std::vector<std::uint32_t>& m
     around[i] = sum;
   }
   std::size_t kept = members.size();
-  while (const std::size_t dwarfing = count_dwarfing(boxes, members, around, kept)) {
+  while (const std::size_t dwarfing = count_dwarfing(world, boxes, members, around, kept)) {
     kept -= dwarfing;
   }
   for (std::size_t i = kept; i < members.size(); ++i) site.add(boxes[members[i]]);
@@ -115,6 +171,31 @@ void drop_strays(const Scene& scene, std::span<const Bounds> boxes,
   }
 }
 
+/// Whether an instance is a simple shape that emits light.
+bool is_panel_of_light(const Scene& scene, std::uint32_t instance) {
+  const Mesh& mesh = scene.meshes[scene.instances[instance].mesh];
+  return mesh.triangles.size() <= kMaxPanelTriangles &&
+         scene.materials[mesh.material].emission != glm::vec3(0.0f);
+}
+
+/// The subject among the instances `members`.
+Subject find_subject_among(const World& world, std::span<const Bounds> boxes,
+                           std::vector<std::uint32_t> members) {
+  Subject subject;
+  // Repeat both: once strays are gone, a ground may dwarf the rest, and once a sky is gone that
+  // encloses everything, there may be a gap between the rest and strays
+  std::size_t before = 0;
+  while (before != members.size()) {
+    before = members.size();
+    drop_strays(world.scene(), boxes, members);
+    drop_backdrops(world, boxes, members, subject.site);
+  }
+  for (const std::uint32_t i : members) subject.bounds.add(boxes[i]);
+  if (!members.empty()) subject.site.add(subject.bounds);
+  subject.instances = std::move(members);
+  return subject;
+}
+
 }  // namespace
 
 Middle find_middle(const Scene& scene, std::span<const Bounds> boxes,
@@ -134,22 +215,24 @@ Middle find_middle(const Scene& scene, std::span<const Bounds> boxes,
 Subject find_subject(const World& world) {
   const Scene& scene = world.scene();
   std::vector<Bounds> boxes(scene.instances.size());
-  Subject subject;
-  std::vector<std::uint32_t>& members = subject.instances;
+  std::vector<std::uint32_t> all, others;
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
     boxes[i] = world.instance_bounds(static_cast<int>(i));
-    if (!boxes[i].empty()) members.push_back(i);
+    if (boxes[i].empty()) continue;
+    all.push_back(i);
+    if (!is_panel_of_light(scene, i)) others.push_back(i);
   }
-  // Repeat both: once strays are gone, a ground may dwarf the rest, and once a sky is gone that
-  // encloses everything, there may be a gap between the rest and strays
-  std::size_t before = 0;
-  while (before != members.size()) {
-    before = members.size();
-    drop_strays(scene, boxes, members);
-    drop_backdrops(boxes, members, subject.site);
+  const bool panels = others.size() < all.size();
+  Subject subject = find_subject_among(world, boxes, std::move(all));
+  // Panels of light that hang around what stands before a backdrop belong to the studio
+  if (panels) {
+    const std::size_t count = others.size();
+    const Subject without = find_subject_among(world, boxes, std::move(others));
+    if (!without.instances.empty() && without.instances.size() < count) {
+      subject.instances = without.instances;
+      subject.bounds = without.bounds;
+    }
   }
-  for (const std::uint32_t i : members) subject.bounds.add(boxes[i]);
-  if (!members.empty()) subject.site.add(subject.bounds);
   return subject;
 }
 

@@ -15,7 +15,8 @@ namespace lambent {
 struct Subject {
   std::vector<std::uint32_t> instances;
   Bounds bounds;  ///< Around these; empty where the scene has no surface.
-  /// Around these and the grounds and skies that dwarf them: all but strays, which are far away.
+  /// Around these, the grounds, skies and other backdrops that dwarf them, and lights of a studio:
+  /// all but strays, which are far away.
   Bounds site;
 };
 

@@ -125,9 +125,9 @@ TEST(FirstView, LeavesOutStraysThatAreFarAway) {
             first_view(before).value().camera.world_from_view);
   EXPECT_EQ(open_bounds(world), open_bounds(before));
   // Things as far from each other as planets are no strays
-  const World planets(scene_of({box_mesh({0, 0, 0}, {2, 2, 2}), box_mesh({9, 0, 0}, {11, 2, 2}),
-                                box_mesh({38, 0, 0}, {40, 2, 2})}));
-  EXPECT_EQ(find_subject(planets).instances.size(), 3u);
+  const Scene planets = scene_of({box_mesh({0, 0, 0}, {2, 2, 2}), box_mesh({9, 0, 0}, {11, 2, 2}),
+                                  box_mesh({38, 0, 0}, {40, 2, 2})});
+  EXPECT_EQ(find_subject(World(planets)).instances.size(), 3u);
 }
 
 TEST(FirstView, IsFromTheFrontOfABackdropWhoseTrianglesFaceBackwards) {
@@ -175,6 +175,41 @@ TEST(FirstView, FramesTheThingAndNotTheGroundItStandsOn) {
   const World world(scene);
   const glm::vec3 eye = eye_of(first_view(world).value().camera);
   EXPECT_LT(glm::length(eye), 12.0f);
+}
+
+TEST(FirstView, FramesTheThingAndNotTheStudioItStandsIn) {
+  // A sweep of paper below and behind a box that is sunk into it slightly, and panels of light
+  Mesh sweep = test::quad({-3, 0, -2}, {6, 0, 0}, {0, 0, 4}, 0);
+  sweep.positions.insert(sweep.positions.end(), {{-3, 3, -2}, {3, 3, -2}});
+  sweep.normals.resize(6, {0, 0, 1});
+  sweep.triangles.insert(sweep.triangles.end(), {{0, 1, 5}, {0, 5, 4}});
+  sweep.uvs = {};
+  Scene scene = scene_of({box_mesh({-0.4f, -0.01f, -0.4f}, {0.4f, 0.8f, 0.4f}), sweep});
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].emission = vec3(10.0f);
+  test::add(scene, test::quad({-2, 2.5f, -1}, {4, 0, 0}, {0, 0, 2}, 1));
+  test::add(scene, test::quad({-2.5f, 0.5f, -1}, {0, 1, 0}, {0, 0, 2}, 1));
+  const World world(scene);
+  EXPECT_EQ(find_subject(world).instances, std::vector<std::uint32_t>{0});
+  EXPECT_EQ(find_subject(world).site, world_bounds(scene));
+  const glm::vec3 eye = eye_of(first_view(world).value().camera);
+  EXPECT_GT(eye.z, 0.0f);
+  EXPECT_LT(glm::length(eye), 4.0f);
+}
+
+TEST(FirstView, DoesNotTakeTheWallsOfAnEmptyRoomForAStudio) {
+  const Mesh thing = box_mesh({-0.4f, 0, -0.4f}, {0.4f, 0.8f, 0.4f});
+  const Scene one_mesh = scene_of({thing, box_mesh({-3, 0, -2}, {3, 3, 2}, true)});
+  EXPECT_EQ(find_subject(World(one_mesh)).instances.size(), 2u);
+  // The same of six walls
+  Scene scene = scene_of({thing});
+  test::add(scene, test::quad({-3, 0, -2}, {6, 0, 0}, {0, 0, 4}, 0));
+  test::add(scene, test::quad({-3, 3, -2}, {6, 0, 0}, {0, 0, 4}, 0));
+  test::add(scene, test::quad({-3, 0, -2}, {0, 3, 0}, {6, 0, 0}, 0));
+  test::add(scene, test::quad({-3, 0, 2}, {0, 3, 0}, {6, 0, 0}, 0));
+  test::add(scene, test::quad({-3, 0, -2}, {0, 3, 0}, {0, 0, 4}, 0));
+  test::add(scene, test::quad({3, 0, -2}, {0, 3, 0}, {0, 0, 4}, 0));
+  EXPECT_EQ(find_subject(World(scene)).instances.size(), scene.instances.size());
 }
 
 TEST(FirstView, StandsInARoom) {
