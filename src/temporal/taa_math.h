@@ -7,6 +7,7 @@
 
 #include "shared/color.h"
 #include "shared/lang.h"
+#include "shared/packing.h"
 #include "shared/random.h"
 
 LAMBENT_BEGIN
@@ -61,6 +62,17 @@ const float kDepthSteps = 1.5f;
 // lamp it would be black dashes.
 const float kMaxOvershoot = 1.0f / 8.0f;
 
+// Samples of one pixel met different surfaces where their depths differ by more than this share: of
+// a thin thing and of what is behind it, or of both sides of an edge.
+const float kOtherSurfaceShare = 0.02f;
+
+// Most frames for which the last sample that met another surface is remembered: jitter has then
+// visited each sixteenth of the pixel twice.
+const uint kMostFramesOfOther = 32u;
+
+// Greatest change of light from one frame to the next by which that sample's light is scaled.
+const float kMaxLightChange = 4.0f;
+
 // Makes the random numbers of jitter independent of those of other passes.
 const uint kJitterSalt = 0x4A495454u;
 
@@ -69,12 +81,55 @@ const float kLeastExpandDivisor = 1e-4f;
 
 /// The history of a pixel.
 struct TaaPixel {
-  vec3 radiance;         ///< Filtered [W/(m^2 sr)].
-  float depth;           ///< Depth of the frame's sample [m]; infinite: the sky.
-  float farthest_depth;  ///< Larger depth of the samples of that frame and the previous one [m].
-  uint moved;            ///< 1: the nearest surface in it and beside it moved itself.
-  float frames;          ///< Number of frames that the radiance is a mean of, >= 1.
+  vec3 radiance;  ///< Filtered [W/(m^2 sr)].
+  float depth;    ///< Depth of the frame's sample [m]; infinite: the sky.
+  /// Largest depth of the samples of that frame and the previous one, and of those before while the
+  /// other sample is remembered [m].
+  float farthest_depth;
+  uint moved;    ///< 1: the nearest surface in it and beside it moved itself.
+  float frames;  ///< Number of frames that the radiance is a mean of, >= 1.
+  /// Radiance of the frame's sample (in the upper half of each word) and of the last sample that
+  /// met another surface (in the lower), in today's light [W/(m^2 sr)].
+  uvec3 samples;
+  uint other_age;  ///< Frames since that other sample, up to kMostFramesOfOther; then it is void.
 };
+
+/// The last sample of a pixel that met another surface than its present one does.
+struct OtherSample {
+  vec3 radiance;  ///< [W/(m^2 sr)]
+  uint age;       ///< Frames since it was taken; kMostFramesOfOther: there is none.
+};
+
+LAMBENT_FN uvec3 pack_samples(vec3 radiance, vec3 other) {
+  return uvec3(pack_upper_halves(radiance.x, other.x), pack_upper_halves(radiance.y, other.y),
+               pack_upper_halves(radiance.z, other.z));
+}
+LAMBENT_FN vec3 latest_sample(TaaPixel pixel) {
+  return vec3(unpack_upper_half(pixel.samples.x), unpack_upper_half(pixel.samples.y),
+              unpack_upper_half(pixel.samples.z));
+}
+LAMBENT_FN vec3 other_sample(TaaPixel pixel) {
+  return vec3(unpack_lower_half(pixel.samples.x), unpack_lower_half(pixel.samples.y),
+              unpack_lower_half(pixel.samples.z));
+}
+
+/// Follows the other sample from a pixel's previous frame to one whose sample shows `radiance` at
+/// this depth. Depths of one surface may differ by `slack` [m]. While the same surface is met, the
+/// light of the other is taken to change as that of the one that is met.
+LAMBENT_FN OtherSample follow_other(TaaPixel before, vec3 radiance, float depth, float slack) {
+  vec3 latest = latest_sample(before);
+  bool met_other =
+      max(depth, before.depth) > min(depth, before.depth) * (1.0f + kOtherSurfaceShare) + slack;
+  if (met_other) {
+    OtherSample fresh = {latest, 0u};
+    return fresh;
+  }
+  float brightness = luminance(latest);
+  float change = brightness > 0.0f ? min(luminance(radiance) / brightness, kMaxLightChange) : 1.0f;
+  OtherSample kept = {change * other_sample(before),
+                      min(before.other_age + 1u, kMostFramesOfOther)};
+  return kept;
+}
 
 /// Element k, 0 to 3, of the permutation of 0 to 3 that a random number selects.
 LAMBENT_FN uint shuffled_quadrant(uint k, uint random) {
@@ -153,6 +208,14 @@ LAMBENT_FN TaaNeighbourhood taa_neighbourhood(vec3 sum, vec3 sum_of_squares, flo
   vec3 extent = max(deviations * sqrt(variance), abs(now - mean));
   TaaNeighbourhood around = {mean, max(extent, vec3(kLeastClipExtent))};
   return around;
+}
+
+/// The neighbourhood, widened until the box includes a colour.
+LAMBENT_FN TaaNeighbourhood include_color(TaaNeighbourhood around, vec3 color) {
+  vec3 low = min(around.mean - around.extent, color);
+  vec3 high = max(around.mean + around.extent, color);
+  TaaNeighbourhood wider = {0.5f * (low + high), 0.5f * (high - low)};
+  return wider;
 }
 
 /// Distance of a colour from the neighbourhood's mean, relative to the box: above 1 it is outside.

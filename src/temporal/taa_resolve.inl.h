@@ -111,6 +111,19 @@ LAMBENT_FN float depth_slack(TaaFrame frame, TaaPictureRef picture, ivec2 pixel,
   return kDepthSteps * (across + down);
 }
 
+/// Difference of depth between what is on either side of a pixel [m]: of slopes and edges, not of
+/// things thinner than a pixel.
+LAMBENT_FN float depth_across(TaaFrame frame, TaaPictureRef picture, ivec2 pixel) {
+  float right = depth_at(frame, picture, pixel.x + 1, pixel.y);
+  float left = depth_at(frame, picture, pixel.x - 1, pixel.y);
+  float below = depth_at(frame, picture, pixel.x, pixel.y + 1);
+  float above = depth_at(frame, picture, pixel.x, pixel.y - 1);
+  // Of two infinite depths there is no difference
+  float across = right == left ? 0.0f : abs(right - left);
+  float down = below == above ? 0.0f : abs(below - above);
+  return across + down;
+}
+
 /// The filtered pixel, which is shown and becomes the next frame's history.
 LAMBENT_FN TaaPixel resolve_taa(TaaFrame frame, TaaPictureRef picture, TaaHistoryRef history,
                                 ivec2 pixel) {
@@ -118,7 +131,8 @@ LAMBENT_FN TaaPixel resolve_taa(TaaFrame frame, TaaPictureRef picture, TaaHistor
   vec3 radiance = radiance_at(picture, pixel);
   float depth = fetch_motion(picture, pixel).depth;
   uint moves = found.nearest.known == kObjectMotion ? 1u : 0u;
-  TaaPixel fresh = {radiance, depth, depth, moves, 1.0f};
+  TaaPixel fresh = {
+      radiance, depth, depth, moves, 1.0f, pack_samples(radiance, vec3(0.0f)), kMostFramesOfOther};
   if (frame.has_history == 0u || found.nearest.known == 0u) return fresh;
 
   // Find the point's place in the previous frame, and whether it was visible there
@@ -139,8 +153,19 @@ LAMBENT_FN TaaPixel resolve_taa(TaaFrame frame, TaaPictureRef picture, TaaHistor
   bool rests = found.nearest.offset.x == 0.0f && found.nearest.offset.y == 0.0f;
   float most_frames = rests ? frame.most_frames : kMovingHistoryFrames;
   float frames = min(before.frames, most_frames);
+  // What is thinner than a pixel is missed by some frames, by the neighbours' samples, too
+  OtherSample other = {vec3(0.0f), kMostFramesOfOther};
+  if (rests && moves == 0u) {
+    float across = kDepthSteps * depth_across(frame, picture, pixel);
+    other = follow_other(before, radiance, depth, across);
+  }
+  bool mixed = other.age < kMostFramesOfOther;
   if (frame.clip_deviations > 0.0f) {
     TaaNeighbourhood around = neighbourhood_at(frame, picture, pixel, found.mean);
+    if (mixed) {
+      vec3 shown = compress_radiance(other.radiance, found.mean);
+      around = include_color(around, ycocg_from_rgb(shown));
+    }
     vec3 color = ycocg_from_rgb(kept);
     float distance = distance_over_box(around, color);
     kept = rgb_from_ycocg(clip_history(around, color, distance));
@@ -151,8 +176,14 @@ LAMBENT_FN TaaPixel resolve_taa(TaaFrame frame, TaaPictureRef picture, TaaHistor
     frames /= frame.relit != 0u ? outside * outside : outside;
   }
   vec3 mean = mix(kept, now, 1.0f / (frames + 1.0f));
-  // Some samples hit an edge and others miss it: both depths are remembered for a frame
-  TaaPixel result = {max(expand_radiance(mean, found.mean), vec3(0.0f)), depth,
-                     max(depth, before.depth), moves, frames + 1.0f};
+  // Some samples hit an edge and others miss it: both depths are remembered for a frame, or as long
+  // as the other sample is
+  TaaPixel result = {max(expand_radiance(mean, found.mean), vec3(0.0f)),
+                     depth,
+                     max(depth, mixed ? before.farthest_depth : before.depth),
+                     moves,
+                     frames + 1.0f,
+                     pack_samples(radiance, other.radiance),
+                     other.age};
   return result;
 }

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Temporal anti-aliasing of things thinner than a pixel, which some frames' samples miss.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "temporal/taa.h"
+
+namespace lambent::taa_thin_test {
+namespace {
+
+constexpr int kSide = 9;
+constexpr int kColumn = 4;
+constexpr float kCovered = 0.4f;  // share of that column's pixels
+constexpr float kPost = 1.0f, kWall = 0.1f, kPostDepth = 2.0f, kWallDepth = 5.0f;
+
+/// Frames of a bright post in front of a dark wall, seen by a camera at rest.
+class PostSequence {
+ public:
+  /// The next frame, whose light differs from the previous one's if `relit`: what it shows where
+  /// the post stands.
+  float next(float light, bool relit) {
+    sequence_.advance(kSide, kSide, {.edited = relit, .relit = relit});
+    const bool met = jitter_position(sequence_.index()).x < kCovered;
+    Image picture(kSide, kSide, 3);
+    std::fill(picture.pixels.begin(), picture.pixels.end(), light * kWall);
+    std::vector<PixelMotion> motion(kSide * kSide, {glm::vec2(0.0f), kWallDepth, kWallDepth, 1u});
+    for (int y = 0; met && y < kSide; ++y) {
+      std::fill_n(picture.at(kColumn, y), 3, light * kPost);
+      motion[y * kSide + kColumn].depth = motion[y * kSide + kColumn].depth_before = kPostDepth;
+    }
+    antialiasing_.resolve(sequence_.frame(), motion, picture);
+    return picture.at(kColumn, kSide / 2)[1];
+  }
+
+ private:
+  TaaSequence sequence_;
+  TemporalAntialiasing antialiasing_;
+};
+
+TEST(ThinThings, HardlyFlickersWhileLightChangesSlowly) {
+  PostSequence post;
+  float least = 1e9f, most = 0.0f, light = 1.0f;
+  for (int i = 0; i < 64; ++i) {
+    light *= 0.99f;
+    const float shown = post.next(light, true) / light;
+    if (i < 16) continue;
+    least = std::min(least, shown);
+    most = std::max(most, shown);
+  }
+  const float right = kCovered * kPost + (1.0f - kCovered) * kWall;
+  EXPECT_GT(least, 0.6f * right);
+  EXPECT_LT(most, 1.5f * right);
+}
+
+TEST(ThinThings, FollowsLightThatGoesOut) {
+  // Whatever the last frame in the light met
+  for (int frames = 16; frames < 32; ++frames) {
+    PostSequence post;
+    float lit = 0.0f, dark = 0.0f;
+    for (int i = 0; i < frames; ++i) lit = post.next(1.0f, i % 2 == 0);
+    for (int i = 0; i < 4; ++i) dark = post.next(0.01f, i == 0);
+    EXPECT_LT(dark, 0.03f * lit) << frames;
+  }
+}
+
+}  // namespace
+}  // namespace lambent::taa_thin_test
