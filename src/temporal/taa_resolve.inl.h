@@ -111,13 +111,13 @@ LAMBENT_FN float depth_slack(TaaFrame frame, TaaPictureRef picture, ivec2 pixel,
   return kDepthSteps * (across + down);
 }
 
-/// Difference of depth between what is on either side of a pixel [m]: of slopes and edges, not of
-/// things thinner than a pixel.
+/// Difference of depth between what is on either side of a pixel, two pixels away [m]: of slopes
+/// and edges, but not of things about as wide as a pixel, which show in one column or its neighbour.
 LAMBENT_FN float depth_across(TaaFrame frame, TaaPictureRef picture, ivec2 pixel) {
-  float right = depth_at(frame, picture, pixel.x + 1, pixel.y);
-  float left = depth_at(frame, picture, pixel.x - 1, pixel.y);
-  float below = depth_at(frame, picture, pixel.x, pixel.y + 1);
-  float above = depth_at(frame, picture, pixel.x, pixel.y - 1);
+  float right = depth_at(frame, picture, pixel.x + 2, pixel.y);
+  float left = depth_at(frame, picture, pixel.x - 2, pixel.y);
+  float below = depth_at(frame, picture, pixel.x, pixel.y + 2);
+  float above = depth_at(frame, picture, pixel.x, pixel.y - 2);
   // Of two infinite depths there is no difference
   float across = right == left ? 0.0f : abs(right - left);
   float down = below == above ? 0.0f : abs(below - above);
