@@ -112,7 +112,8 @@ LAMBENT_FN float depth_slack(TaaFrame frame, TaaPictureRef picture, ivec2 pixel,
 }
 
 /// Difference of depth between what is on either side of a pixel, two pixels away [m]: of slopes
-/// and edges, but not of things about as wide as a pixel, which show in one column or its neighbour.
+/// and edges, but not of things about as wide as a pixel, which show in one column or its
+/// neighbour.
 LAMBENT_FN float depth_across(TaaFrame frame, TaaPictureRef picture, ivec2 pixel) {
   float right = depth_at(frame, picture, pixel.x + 2, pixel.y);
   float left = depth_at(frame, picture, pixel.x - 2, pixel.y);

@@ -27,6 +27,12 @@ constexpr double kMetalReflectance = 0.5, kLeastAlbedo = 0.01;
 // exposure is lowered, but by no more than kMaxLowered [stops], so that a patch of sun does not
 // make a room dark.
 constexpr double kBrightShare = 0.1, kBright = 3.0, kMaxLowered = 2.0;
+// What is this much darker [stops] than surfaces that cover this share of the picture counts as
+// black, a million times below: the night side of a planet beside a ship in the sun.
+constexpr double kBlack = 20.0, kBrightestShare = 0.01;
+// A surface that emits more than this share of the light that it sends counts as a lamp, whatever
+// it reflects.
+constexpr float kMaxEmitted = 0.5f;
 // The background counts at most as much as the first share of all surfaces, and as if these covered
 // the second share of the picture at least: a bird in the sky does not decide.
 constexpr double kMostBackground = 0.5, kLeastSurfaces = 0.05;
@@ -50,7 +56,9 @@ struct SurfaceLayers {
         emission(layer_of(frame, "emission")),
         transmission(layer_of(frame, "transmission")) {}
 
-  bool is_surface(int x, int y) const {
+  /// `stops`: the pixel's luminance.
+  bool is_surface(int x, int y, double stops) const {
+    if (is_lamp(x, y, stops)) return false;
     if (is_lit(albedo->at(x, y))) return true;
     return is_hit(x, y) && !shines(emission, x, y) && !shines(transmission, x, y);
   }
@@ -58,6 +66,11 @@ struct SurfaceLayers {
   const Image *albedo, *normal, *emission, *transmission;
 
  private:
+  bool is_lamp(int x, int y, double stops) const {
+    if (emission == nullptr) return false;
+    const float* e = emission->at(x, y);
+    return luminance(vec3(e[0], e[1], e[2])) > kMaxEmitted * static_cast<float>(std::exp2(stops));
+  }
   bool is_hit(int x, int y) const {
     if (normal == nullptr) return false;
     const float* n = normal->at(x, y);
@@ -102,7 +115,7 @@ void LuminanceHistogram::add(const LayeredImage& rows) {
     for (int x = 0; x < linear.width; ++x) {
       const double stops = luminance_stops(linear, x, y);
       if (!std::isfinite(stops)) continue;
-      if (!layers.is_surface(x, y)) {
+      if (!layers.is_surface(x, y, stops)) {
         ++background_[bin_of(stops)];
         continue;
       }
@@ -140,13 +153,18 @@ double LuminanceHistogram::background_weight() const {
 
 float LuminanceHistogram::stops() const {
   const double weight = background_weight();
-  std::array<double, kBins> counts{};
-  double total = 0.0, pixels = 0.0;
+  double pixels = 0.0;
   for (std::size_t bin = 0; bin < kBins; ++bin) {
+    pixels += static_cast<double>(counts_[bin] + background_[bin]);
+  }
+  const double black = bright_stop(kBrightestShare * pixels) - kBlack;
+  std::array<double, kBins> counts{};
+  double total = 0.0;
+  for (std::size_t bin = 0; bin < kBins; ++bin) {
+    if (stop_of(bin) < black) continue;
     counts[bin] =
         static_cast<double>(counts_[bin]) + weight * static_cast<double>(background_[bin]);
     total += counts[bin];
-    pixels += static_cast<double>(counts_[bin] + background_[bin]);
   }
   if (total <= 0.0) return 0.0f;
   std::size_t median = 0;
