@@ -99,10 +99,12 @@ struct IrradianceField::State {
   /// `stale.waiting`.
   void apply_edits_in_slices(const World& world, std::uint64_t ray_budget, StaleProbes& stale,
                              UpdateStatistics& statistics);
-  /// Brings one slice of the stale probes up to date. `all` are all traced probes.
-  void apply_edits_to_slice(const World& world, std::span<const WorldChanges> changes,
-                            std::span<const int> probes, std::span<const int> all,
-                            UpdateStatistics& statistics);
+  /// Brings one slice of the stale probes up to date. `all` are all traced probes. Reduces their
+  /// history ratios, and returns the history_share() of each.
+  std::vector<float> apply_edits_to_slice(const World& world, std::span<const WorldChanges> changes,
+                                          std::span<const int> probes, std::span<const int> all,
+                                          WorkingIrradiance& history_ratio,
+                                          UpdateStatistics& statistics);
   /// Reduces the weight of averages and corrections whose light the pending edits changed.
   void reduce_history();
   void forget_corrections(EditProgress progress);

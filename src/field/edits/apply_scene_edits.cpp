@@ -87,7 +87,7 @@ std::vector<float> reduce_history(const PendingEdits& pending, const WorkingIrra
         found(&light[probe * texels], texels);
     if (relative_square(held, found) < kChangedFraction * kChangedFraction) continue;
     // The more the distribution of the light changed, the fewer samples the average counts as
-    const float kept = likeness(found, held);
+    const float kept = likeness(found, held) * pending.history_shares[probe];
     counts[probe] = kept * kept;
     statuses[probe].samples = samples_after_edit(statuses[probe].samples, kept);
     scheduler.mark_changed(probe);
@@ -118,11 +118,9 @@ void order_stale_probes(std::uint64_t revision, const ProbeStore& store,
 
 /// Brings one slice of the probes up to date. Scales their light by the ratio of direct light after
 /// the edits to that before them, which gives the solve a good start.
-void IrradianceField::State::apply_edits_to_slice(const World& world,
-                                                  std::span<const WorldChanges> changes,
-                                                  std::span<const int> probes,
-                                                  std::span<const int> all,
-                                                  UpdateStatistics& statistics) {
+std::vector<float> IrradianceField::State::apply_edits_to_slice(
+    const World& world, std::span<const WorldChanges> changes, std::span<const int> probes,
+    std::span<const int> all, WorkingIrradiance& history_ratio, UpdateStatistics& statistics) {
   PassTimer watch(statistics.passes);
   const std::vector<double> direct_before = backend->direct_light(probes);
   const bool shapes_differ = std::any_of(changes.begin(), changes.end(),
@@ -143,14 +141,14 @@ void IrradianceField::State::apply_edits_to_slice(const World& world,
   const double after = std::accumulate(direct_after.begin(), direct_after.end(), 0.0);
   edits.pending.direct_light += after;
   const auto brighter = static_cast<float>(before > 0.0 ? after / before : 1.0);
-  const int texels = data.tile_texels();
+  const auto texels = static_cast<std::size_t>(data.tile_texels());
   for (const int probe : probes) {
     statuses[probe].revision = world.revision();
-    for (int t = 0; t < texels; ++t) {
-      data.light[static_cast<std::size_t>(probe) * texels + t] *= brighter;
-    }
+    for (std::size_t t = 0; t < texels; ++t) data.light[probe * texels + t] *= brighter;
   }
+  std::vector<float> shares = reduce_history_ratios(direct_before, direct_after, history_ratio);
   watch.finish(field_pass::kEdits, counted);
+  return shares;
 }
 
 void IrradianceField::State::apply_edits_to_sleeping(const World& world, std::uint64_t ray_budget,
@@ -177,9 +175,9 @@ void IrradianceField::State::apply_edits_to_sleeping(const World& world, std::ui
   std::uint64_t oldest = world.revision();
   for (const int probe : probes) oldest = std::min(oldest, statuses[probe].revision);
   const WorkingIrradiance before = light_of(data.light, probes, data.tile_texels());
-  const WorkingIrradiance history_ratio = history_ratio_of(probes, data);
+  WorkingIrradiance history_ratio = history_ratio_of(probes, data);
   watch.finish(field_pass::kEdits);
-  apply_edits_to_slice(world, *world.changes_since(oldest), probes, all, statistics);
+  apply_edits_to_slice(world, *world.changes_since(oldest), probes, all, history_ratio, statistics);
   watch.skip();
 
   // No surfel that matters reads sleeping probes, so that one iteration solves for their light
@@ -298,6 +296,7 @@ void IrradianceField::State::begin_edits(std::uint64_t revision, std::span<const
   }
   edits.pending.before = data.light;
   edits.pending.history_ratio.resize(data.light.size());
+  edits.pending.history_shares.assign(statuses.size(), 1.0f);
   edits.pending.updated.clear();
   edits.pending.revision = revision;
 }
@@ -316,14 +315,16 @@ void IrradianceField::State::apply_edits_in_slices(const World& world, std::uint
   while (!stale.waiting.empty() && spent < most) {
     const Slice slice = next_slice(stale.waiting, data.traces, statuses, most - spent);
     const std::vector<WorldChanges> changes = *world.changes_since(slice.oldest);
-    const WorkingIrradiance history_ratio = history_ratio_of(slice.probes, data);
-    for (std::size_t k = 0; k < slice.probes.size(); ++k) {
-      std::copy_n(&history_ratio[k * texels], texels,
-                  &edits.pending.history_ratio[slice.probes[k] * texels]);
-    }
+    WorkingIrradiance history_ratio = history_ratio_of(slice.probes, data);
     watch.finish(field_pass::kSolve);
-    apply_edits_to_slice(world, changes, slice.probes, stale.traced, statistics);
+    const std::vector<float> shares =
+        apply_edits_to_slice(world, changes, slice.probes, stale.traced, history_ratio, statistics);
     watch.skip();
+    for (std::size_t k = 0; k < slice.probes.size(); ++k) {
+      const auto probe = static_cast<std::size_t>(slice.probes[k]);
+      std::copy_n(&history_ratio[k * texels], texels, &edits.pending.history_ratio[probe * texels]);
+      edits.pending.history_shares[probe] = shares[k];
+    }
     stale.waiting.erase(stale.waiting.begin(),
                         stale.waiting.begin() + static_cast<std::ptrdiff_t>(slice.probes.size()));
     updated.insert(updated.end(), slice.probes.begin(), slice.probes.end());

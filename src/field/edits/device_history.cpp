@@ -36,14 +36,15 @@ DeviceHistory::DeviceHistory(FieldResources& field, DeviceSolver& solver, const 
   history_ratio_ = tiles("history ratios");
   direct_before_ = tiles("direct light before edits");
   direct_after_ = tiles("direct light after edits");
-  brighter_ = Buffer(device, sizeof(float), Memory::device, "brighter by edits");
+  direct_sums_ = Buffer(device, 2 * sizeof(float), Memory::device, "direct light by edits");
+  history_shares_ = Buffer(device, count * sizeof(float), Memory::device, "shares of history");
   changed_ = Buffer(device, count * sizeof(uint), Memory::device, "probes changed by edits");
   field.reserve_distances_before(largest);
 }
 
 std::size_t DeviceHistory::bytes() const {
   return bytes_of({&light_before_, &estimate_, &history_ratio_, &direct_before_, &direct_after_,
-                   &brighter_, &changed_});
+                   &direct_sums_, &history_shares_, &changed_});
 }
 
 /// Records the computation of the direct light that a list's probes receive. Texels for which no
@@ -83,7 +84,9 @@ void DeviceHistory::record_solve(Recorder& to, const DeviceProbes& list,
                                {field_.light().address()},
                                {direct_before_.address()},
                                {direct_after_.address()},
-                               {brighter_.address()},
+                               {direct_sums_.address()},
+                               {history_ratio_.address()},
+                               {history_shares_.address()},
                                list.count(),
                                kSumDirectLight};
   to.run(scale_light_, scale, kSumDirectLanes);
@@ -103,6 +106,7 @@ void DeviceHistory::record_keep(Recorder& to, const DeviceProbes& list) const {
                                             {light_before_.address()},
                                             {solver_.solution().address()},
                                             {history_ratio_.address()},
+                                            {history_shares_.address()},
                                             changed(),
                                             list.count(),
                                             0};

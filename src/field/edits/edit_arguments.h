@@ -40,8 +40,9 @@ struct HistoryRatioArguments {
 };
 
 // The steps of scale_light.
-const uint kSumDirectLight = 0u;  ///< One workgroup computes `brighter`.
-const uint kScaleLight = 1u;      ///< Scales the list's light by `brighter`, one lane per texel.
+const uint kSumDirectLight = 0u;  ///< One workgroup computes `direct_sums`.
+/// Scales the list's light by their ratio, and reduces history ratios, one lane per texel.
+const uint kScaleLight = 1u;
 
 // The lanes of scale_light's workgroups.
 const int kSumDirectLanes = 256;
@@ -49,10 +50,12 @@ const int kSumDirectLanes = 256;
 /// Arguments of scale_light, which gives a solve after an edit a good start.
 struct ScaleLightArguments {
   IntArray list;
-  Vec4Array light;          ///< Of all probes.
-  Vec4Array direct_before;  ///< Direct light that the list's probes received before the edit.
-  Vec4Array direct_after;   ///< Direct light that the list's probes receive after the edit.
-  FloatArray brighter;      ///< The ratio of direct light after the edit to before: one word.
+  Vec4Array light;            ///< Of all probes.
+  Vec4Array direct_before;    ///< Direct light that the list's probes received before the edit.
+  Vec4Array direct_after;     ///< Direct light that the list's probes receive after the edit.
+  FloatArray direct_sums;     ///< Luminance of all texels of these: before, after.
+  Vec4Array history_ratio;    ///< Of the list.
+  FloatArray history_shares;  ///< history_share() of each of the list's probes.
   int count;
   uint step;
 };
@@ -67,6 +70,7 @@ struct KeepUnchangedArguments {
   Vec4Array light_before;
   Vec4Array solution;
   Vec4Array history_ratio;
+  FloatArray history_shares;  ///< One word per probe of the list.
   UintArray changed;  ///< One word per probe of the list: 1 where its light changed, else 0.
   int count;
   int unused;

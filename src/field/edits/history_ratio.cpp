@@ -4,6 +4,7 @@
 #include "field/edits/history_ratio.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "field/edits/history_ratio_math.h"
 #include "field/probes/tile_light.h"
@@ -17,6 +18,28 @@ WorkingIrradiance history_ratio_of(std::span<const int> probes, const ProbeData&
   for (std::size_t i = 0; i < history_ratio.size(); ++i)
     history_ratio[i] = history_ratio_between(estimate[i], history_ratio[i]);
   return history_ratio;
+}
+
+std::vector<float> reduce_history_ratios(std::span<const double> direct_before,
+                                         std::span<const double> direct_after,
+                                         WorkingIrradiance& history_ratio) {
+  const std::size_t probes = direct_before.size();
+  const auto mean = [probes](std::span<const double> light) {
+    return static_cast<float>(std::accumulate(light.begin(), light.end(), 0.0) /
+                              static_cast<double>(probes));
+  };
+  const float mean_before = mean(direct_before), mean_after = mean(direct_after);
+  std::vector<float> shares(probes);
+  const std::size_t texels = history_ratio.size() / probes;
+  for (std::size_t k = 0; k < probes; ++k) {
+    shares[k] = history_share(static_cast<float>(direct_before[k]),
+                              static_cast<float>(direct_after[k]), mean_before, mean_after);
+    for (std::size_t t = 0; t < texels; ++t) {
+      vec4& ratio = history_ratio[k * texels + t];
+      ratio = reduce_history_ratio(ratio, shares[k]);
+    }
+  }
+  return shares;
 }
 
 /// Stores the solution of a solve without history ratio as the probes' last estimates.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "field/field_backend.h"
 #include "field/probe_data.h"
@@ -13,6 +14,11 @@ namespace lambent {
 /// The ratio of the light that some probes hold to the light that their last rays estimate, texel
 /// by texel.
 WorkingIrradiance history_ratio_of(std::span<const int> probes, const ProbeData& data);
+/// Reduces the history ratios of some probes where an edit changed their direct light much, see
+/// history_share(). Returns that share of each. `direct_before`, `direct_after`: of each probe.
+std::vector<float> reduce_history_ratios(std::span<const double> direct_before,
+                                         std::span<const double> direct_after,
+                                         WorkingIrradiance& history_ratio);
 /// Stores the light that the last rays of some probes estimate: the solution of a solve without
 /// history ratio.
 void store_last_estimates(std::span<const int> probes, const WorkingIrradiance& solution,

@@ -17,6 +17,15 @@ const float kMaxHistoryRatio = 2.0f;
 // flash. The limit is beyond what single rays bring, and keeps the division by the ratio finite.
 const float kMinHistoryRatio = 1e-5f;
 
+// Where an edit makes direct light more than this many times as bright or as dark, what lights a
+// place afterwards is mostly other sources than before, whose errors history ratios know nothing
+// of: of a lamp that is switched on beside a small one, which few rays find, all texels were up to
+// kMaxHistoryRatio times too bright. Lamps that flicker stay within it.
+const float kMaxDirectChange = 4.0f;
+// Probes that receive hardly any direct light are lit by what others reflect, so that this share of
+// the mean probe's counts as their own.
+const float kReflectedShare = 0.1f;
+
 // A probe whose light an edit changes by less than this fraction keeps its old light and its
 // history. It is half of the smallest visible difference.
 const float kChangedFraction = 0.005f;
@@ -34,8 +43,23 @@ LAMBENT_FN vec4 history_ratio_between(vec4 last_irradiance_estimate, vec4 held) 
   return history_ratio;
 }
 
+/// The share of a probe's history that holds after an edit, 0 to 1, by the direct light that it and
+/// the mean probe receive before and after the edit.
+LAMBENT_FN float history_share(float before, float after, float mean_before, float mean_after) {
+  float was = before + kReflectedShare * mean_before;
+  float is = after + kReflectedShare * mean_after;
+  float least = min(was, is);
+  float most = max(was, is);
+  return most > kMaxDirectChange * least ? kMaxDirectChange * least / most : 1.0f;
+}
+
+LAMBENT_FN vec4 reduce_history_ratio(vec4 history_ratio, float share) {
+  return vec4(1.0f) + share * (history_ratio - vec4(1.0f));
+}
+
 /// The number of samples that an average counts as after an edit changed its light. `likeness` is
-/// the similarity, as of likeness_of(), of the light after the edit to the light before it.
+/// the similarity, as of likeness_of(), of the light after the edit to the light before it, times
+/// the history_share().
 LAMBENT_FN float samples_after_edit(float samples, float likeness) {
   return max(samples * likeness * likeness, 1.0f);
 }

@@ -19,6 +19,8 @@ struct PendingEdits {
   /// For each texel of the updated probes, the ratio of the averaged light to what the last rays
   /// alone estimated (history_ratio.cpp).
   WorkingIrradiance history_ratio;
+  /// For each of the field's probes, the share of its history that holds (history_share()).
+  std::vector<float> history_shares;
   std::vector<int> updated;   ///< Probes to which the edits have been applied, in ascending order.
   double direct_light = 0.0;  ///< Direct light that `updated` receive now, see direct_light_of().
 };

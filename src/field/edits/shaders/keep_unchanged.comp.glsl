@@ -44,7 +44,7 @@ void main() {
         args.solution.at[own + t] / args.history_ratio.at[own + t];
   }
   if (!changed) return;
-  float kept = likeness_of(sums, change.now, change.before);
+  float kept = likeness_of(sums, change.now, change.before) * args.history_shares.at[k];
   float samples = args.probes.standing.at[probe].samples;
   args.probes.standing.at[probe].samples = samples_after_edit(samples, kept);
 }

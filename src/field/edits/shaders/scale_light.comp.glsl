@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scales the light of probes by the ratio of their direct light after an edit to that before it.
+// Scales the light of probes by the ratio of direct light after an edit to that before it, and
+// reduces their history ratios where it is of other sources.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/edits/edit_arguments.h"
+#include "field/edits/history_ratio_math.h"
 #include "field/probes/shaders/tiles.glsl"
 #include "shared/color.h"
 
@@ -13,22 +15,39 @@ layout(push_constant, scalar) uniform Push {
 
 shared vec2 partial[kSumDirectLanes];  // luminance before, after
 
+/// Luminance of a texel's direct light before and after the edit.
+vec2 direct_at(int i) {
+  return vec2(luminance(args.direct_before.at[i].xyz), luminance(args.direct_after.at[i].xyz));
+}
+
+/// Texel i of the list, which belongs to its probe k.
+void scale(int i, int k, int tile) {
+  vec2 all = vec2(args.direct_sums.at[0], args.direct_sums.at[1]);
+  float brighter = all.x > 0.0 ? all.y / all.x : 1.0;
+  args.light.at[args.list.at[k] * tile + i % tile] *= brighter;
+  vec2 own = vec2(0.0);
+  for (int t = 0; t < tile; ++t) own += direct_at(k * tile + t);
+  float probes = float(args.count);
+  float share = history_share(own.x, own.y, all.x / probes, all.y / probes);
+  args.history_ratio.at[i] = reduce_history_ratio(args.history_ratio.at[i], share);
+  if (i == k * tile) args.history_shares.at[k] = share;
+}
+
 void main() {
   const int tile = kIrradianceTexels * kIrradianceTexels;
   int texels = args.count * tile;
   if (args.step == kScaleLight) {
     int i = int(gl_GlobalInvocationID.x);
-    if (i < texels) args.light.at[args.list.at[i / tile] * tile + i % tile] *= args.brighter.at[0];
+    if (i < texels) scale(i, i / tile, tile);
     return;
   }
   int lane = int(gl_LocalInvocationIndex);
   vec2 sum = vec2(0.0);
-  for (int i = lane; i < texels; i += kSumDirectLanes) {
-    sum += vec2(luminance(args.direct_before.at[i].xyz), luminance(args.direct_after.at[i].xyz));
-  }
+  for (int i = lane; i < texels; i += kSumDirectLanes) sum += direct_at(i);
   partial[lane] = sum;
   barrier();
   if (lane != 0) return;
   for (int other = 1; other < kSumDirectLanes; ++other) sum += partial[other];
-  args.brighter.at[0] = sum.x > 0.0 ? sum.y / sum.x : 1.0;
+  args.direct_sums.at[0] = sum.x;
+  args.direct_sums.at[1] = sum.y;
 }
