@@ -261,6 +261,7 @@ void add_bake(CLI::App& app, Run& run) {
   command->option_defaults()->group(kMainGroup);
   command->add_option("-o,--output", o->output, "The field file to write, such as a.field")
       ->required()
+      ->check(file_name())
       ->type_name("FILE");
   command->add_option("--updates", o->updates, "Update so often (until the light has settled)")
       ->check(whole_number(1, kMaxUpdates))

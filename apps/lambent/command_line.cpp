@@ -43,7 +43,12 @@ Expected<std::vector<std::string>> complete_arguments(const CLI::App& app,
   if (first == arguments.end() || is_one_of(*first, known)) return arguments;
   const std::string word = *first;
   if (word == "help") {
-    arguments.erase(first);
+    const auto about = arguments.erase(first);
+    if (about != arguments.end() && !about->starts_with("-") && !is_one_of(*about, known)) {
+      return fail("", "",
+                  "'" + *about + "' is no subcommand" + did_you_mean(*about, known) +
+                      " (see lambent --help)");
+    }
     arguments.push_back("--help");
     return arguments;
   }

@@ -216,6 +216,7 @@ void add_connect(CLI::App& app, Run& run) {
   command->option_defaults()->group(kMainGroup);
   command->add_option("-o,--output", o->output, "The .png file to write")
       ->required()
+      ->check(file_name())
       ->type_name("FILE");
   command->add_option("--frames", o->frames, "Write so many pictures, numbered")
       ->check(whole_number(1, kMaxUpdates))

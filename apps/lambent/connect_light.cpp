@@ -10,6 +10,7 @@
 #include "lambent/connect.h"
 #include "lambent/console.h"
 #include "lambent/interrupts.h"
+#include "lambent/light_from.h"
 #include "lambent/parse.h"
 #include "lambent/quality.h"
 #include "lambent/renderer.h"
@@ -66,6 +67,8 @@ Expected<void> render_by_stream(const ConnectOptions& options,
   const auto light = add_first_light(options.scene.light, stream::camera_of(joined.welcome.camera),
                                      opened->sky_dome, scene, world);
   if (!light) return tl::unexpected(light.error());
+  const auto same = check_same_scene("HOST", options.server, joined.welcome, scene);
+  if (!same) return same;
   auto frame = settings_of(options);
   if (!frame) return tl::unexpected(frame.error());
 

@@ -15,6 +15,7 @@
 #include "lambent/image.h"
 #include "lambent/input.h"
 #include "lambent/output.h"
+#include "lambent/validators.h"
 #include "lambent/words.h"
 
 namespace lambent::cli {
@@ -223,6 +224,7 @@ void add_field(CLI::App& app, Run& run) {
       ->add_option("-o,--output", o->prefix,
                    "Write this and .irradiance.exr, and this and .distance.exr")
       ->required()
+      ->check(file_name())
       ->type_name("PREFIX");
   atlases->callback([o, &run] { run = [o] { return export_atlases(o->file, o->prefix); }; });
 }

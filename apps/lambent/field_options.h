@@ -48,6 +48,9 @@ Expected<FieldSettings> field_settings(const FieldOptions& options, const Scene&
 /// typed.
 Error in_options(Error error, const FieldOptions& options);
 
+/// A standard error of the field's light above this is visible as patches on plain walls.
+inline constexpr double kNoisyField = 0.05;
+
 /// The result of updates of a field.
 struct FieldProgress {
   int updates = 0;
@@ -62,8 +65,9 @@ FieldProgress update_field(const World& world, int updates, const UpdateRequest&
 
 /// Updates the field at least `least` times, until the standard error of its light is below 2.5 %
 /// (up to 4 % with more probes than by default), at most 80 times: otherwise noise from small
-/// bright patches is visible in mirrors and on walls. Updates after the first `least` trace half as
-/// many rays, from the noisiest probes.
+/// bright patches is visible in mirrors and on walls. Gives up after 32 where 80 would not bring
+/// the error below kNoisyField. Updates after the first `least` trace half as many rays, from the
+/// noisiest probes.
 FieldProgress calm_field(const World& world, int least, const UpdateRequest& request,
                          IrradianceField& field, const ProgressFn& progress,
                          nlohmann::ordered_json& stats);

@@ -104,9 +104,6 @@ glm::ivec2 preview_of(const glm::ivec2& size, int side) {
 // Number of updates after which all bounces have reached all probes; noise remains.
 constexpr int kFewUpdates = 8;
 
-// A standard error of the field's light above this is visible as patches on plain walls.
-constexpr double kNoisyField = 0.05;
-
 /// Tells how much noise is left in a field that is not calm after so many updates.
 void tell_noise(const FieldProgress& reached, double standard_error) {
   if (!(standard_error > kNoisyField)) return;

@@ -40,11 +40,11 @@ Expected<std::unique_ptr<stream::Upstream>> open_upstream(const LightFromOptions
   return stream::Upstream::open(settings);
 }
 
-Expected<void> check_same_scene(const LightFromOptions& options, const stream::Welcome& welcome,
-                                const Scene& scene) {
+Expected<void> check_same_scene(const std::string& option, const std::string& server,
+                                const stream::Welcome& welcome, const Scene& scene) {
   const std::size_t lights = std::min(scene.lights.size(), stream::kMaxToldLights);
   if (welcome.instances == scene.instances.size() && welcome.lights.size() == lights) return {};
-  return fail("--light-from", options.server,
+  return fail(option, server,
               "serves another scene: it has " + count_text(welcome.instances, "object") + " and " +
                   count_text(welcome.lights.size(), "light") + ", this one " +
                   count_text(scene.instances.size(), "object") + " and " +

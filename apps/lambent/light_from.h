@@ -30,8 +30,9 @@ void add_light_from_options(CLI::App& command, LightFromOptions& options,
 /// Connects to the server that the options name.
 Expected<std::unique_ptr<stream::Upstream>> open_upstream(const LightFromOptions& options);
 
-/// Fails where the objects and lights of the scene differ from the server's.
-Expected<void> check_same_scene(const LightFromOptions& options, const stream::Welcome& welcome,
-                                const Scene& scene);
+/// Fails, naming the server as the value of an option, where the objects and lights of the scene
+/// differ from the server's.
+Expected<void> check_same_scene(const std::string& option, const std::string& server,
+                                const stream::Welcome& welcome, const Scene& scene);
 
 }  // namespace lambent::cli

@@ -7,6 +7,7 @@
 #include "lambent/console.h"
 #include "lambent/help.h"
 #include "lambent/output.h"
+#include "lambent/validators.h"
 #include "lambent/words.h"
 #include "scenes/builtin.h"
 #include "scenes/glb_writer.h"
@@ -47,6 +48,7 @@ void add_make_scene(CLI::App& app, Run& run) {
   command->add_option("NAME", options->name, "One of: " + list_text(scenes::names()))->required();
   command->add_option("-o,--output", options->output, "The .glb file to write")
       ->required()
+      ->check(file_name())
       ->type_name("FILE");
   command->add_flag("--sealed", options->sealed, "two-rooms: close the gap in the wall");
   command->callback([options, &run] { run = [options] { return make_scene(*options); }; });

@@ -68,6 +68,7 @@ void add_picture(CLI::App& app, Run& run) {
   command->add_option("IMAGE", o->input, "Image: .exr, .hdr, .png or .jpg")->required();
   command->add_option("-o,--output", o->output, "The .png or .jpg file to write")
       ->required()
+      ->check(file_name())
       ->type_name("FILE");
   command->add_option("--layer", o->layer, "Layer to show (the whole picture)")->type_name("L");
   command->add_option("--exposure", o->exposure, "In stops, or auto")

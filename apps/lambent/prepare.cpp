@@ -66,6 +66,7 @@ void add_prepare(CLI::App& app, Run& run) {
   command->option_defaults()->group("The file");
   command->add_option("-o,--output", options->output, "The file to write")
       ->required()
+      ->check(file_name())
       ->type_name("FILE");
   command->add_option("--texture-size", options->texture_size, "Longest side of textures [texels]")
       ->check(whole_number(1, kAnyTextureSize))

@@ -225,6 +225,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
                   "The .png, .jpg or .exr (linear, 32-bit float) to write (SCENE.png beside the "
                   "scene). In a sequence #### stands for the frame's number; without it a.png "
                   "becomes a.0000.png, ...")
+      ->check(file_name())
       ->type_name("FILE");
   command.add_option("--size", o.size, "Pixels; or a name: 480p, 720p, 1080p, 1440p, 4k, 8k")
       ->capture_default_str()

@@ -186,7 +186,8 @@ Expected<void> serve_relayed(const ServeOptions& options, const stream::PictureS
   const Camera theirs = stream::camera_of(welcome.camera);
   const auto light = add_first_light(options.scene.light, theirs, opened->sky_dome, scene, world);
   if (!light) return tl::unexpected(light.error());
-  if (const auto same = check_same_scene(options.light_from, welcome, scene); !same) return same;
+  const auto same = check_same_scene("--light-from", options.light_from.server, welcome, scene);
+  if (!same) return same;
   Camera camera = theirs;
   const SceneOptions& asked = options.scene;
   if (!asked.camera.empty() || !asked.eye.empty() || !asked.target.empty() || asked.fov_degrees) {

@@ -76,6 +76,12 @@ CLI::Validator number_above_zero(double high) {
                 [high](double value) { return static_cast<float>(value) > 0.0f && value <= high; });
 }
 
+CLI::Validator file_name() {
+  return CLI::Validator(
+      [](std::string& text) { return text.empty() ? refusal(text, "the name of a file") : ""; },
+      "");
+}
+
 std::string unlike_any_of(const std::string& word, const std::vector<std::string>& known) {
   if (std::find(known.begin(), known.end(), word) != known.end()) return "";
   return refusal(word, "one of " + list_text(known, "and")) + did_you_mean(word, known);

@@ -30,6 +30,9 @@ CLI::Validator number(double low, double high);
 /// Finite numbers above 0, up to `high`.
 CLI::Validator number_above_zero(double high);
 
+/// Any text but none, as of a variable that the shell does not know.
+CLI::Validator file_name();
+
 /// One of some words; for others, the error suggests the nearest.
 CLI::Validator one_of(std::vector<std::string> known);
 

@@ -236,7 +236,8 @@ class IrradianceField {
   void reset();
 
   /// Indirect irradiance [W/m^2] at each query: light that bounced, and light from the sky; not
-  /// what lights and emissive surfaces send straight. Both spans have the same length. Queries
+  /// what lights and emissive surfaces send straight. Near surfaces it follows edits within the
+  /// update that applies them; in open air, within eight. Both spans have the same length. Queries
   /// outside all volumes are answered by the nearest probes of the last. Runs on all cores.
   /// `world` is what FieldSettings::visibility traces rays in. Visibility is by distances where it
   /// is null, or not on the device that holds the field.

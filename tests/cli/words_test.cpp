@@ -231,6 +231,21 @@ TEST(Help, IsThereForEverySubcommandInLinesThatFit) {
   }
 }
 
+TEST(Help, OfWhatIsNoSubcommandIsAnError) {
+  const ProgramResult result = run_program("help rendr");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, HasSubstr("'rendr' is no subcommand"));
+  EXPECT_THAT(result.errors, HasSubstr("did you mean 'render'"));
+}
+
+TEST(Options, FilesHaveNames) {
+  for (const std::string command : {"render cornell", "bake cornell", "make-scene cornell"}) {
+    const ProgramResult result = run_program(command + " -o ''");
+    EXPECT_EQ(result.status, 2) << command;
+    EXPECT_THAT(result.errors, HasSubstr("the name of a file")) << command;
+  }
+}
+
 TEST(Scenes, AreListedForPeopleAndForPrograms) {
   const ProgramResult table = run_program("scenes"), json = run_program("scenes --json");
   ASSERT_EQ(table.status, 0) << table.errors;

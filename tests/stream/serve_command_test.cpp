@@ -104,8 +104,14 @@ TEST(ServeCommand, ServesPicturesUntilItIsTerminated) {
                   directory.file("many.png") + " --eye 2.7,2.7,-5 --target 2.7,2.7,0");
   EXPECT_EQ(more.status, 0) << more.errors;
   EXPECT_EQ(directory.entries(), 4u);
+  // Another scene than the server's is not lit by its light
+  const ProgramResult other =
+      run_program("connect " + server.host() + " --scene atrium -o " + directory.file("other.png"));
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.errors, HasSubstr("serves another scene"));
+  EXPECT_EQ(directory.entries(), 4u);
   EXPECT_EQ(server.end(SIGTERM), 0);
-  EXPECT_THAT(server.said(), HasSubstr("served 2 clients with"));
+  EXPECT_THAT(server.said(), HasSubstr("served 3 clients with"));
 }
 
 TEST(ServeCommand, AnInterruptEndsItAsWell) {

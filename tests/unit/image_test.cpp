@@ -264,6 +264,19 @@ TEST(Jpeg, TakesGreyAndAlphaAndWhatIsNoNumber) {
   EXPECT_NEAR(read_image(directory.file("alpha.jpg"))->find("")->at(3, 3)[0], 0.0f, 0.005f);
 }
 
+TEST(Image, PixelsThatAreMissingAreToldOf) {
+  const test::TemporaryDirectory directory;
+  Image image(400, 400, 3);
+  image.pixels.resize(7);
+  for (const bool png : {true, false}) {
+    const auto written = png ? write_png(directory.file("a.png"), image)
+                             : write_jpeg(directory.file("a.jpg"), image);
+    ASSERT_FALSE(written);
+    EXPECT_NE(written.error().message().find("7 numbers"), std::string::npos);
+  }
+  EXPECT_EQ(directory.entries(), 0u);
+}
+
 TEST(Jpeg, WhatNoJpegHoldsIsRefused) {
   const test::TemporaryDirectory directory;
   const std::string path = directory.file("a.jpg");

@@ -30,6 +30,18 @@ Expected<void> check_image_sides(const std::string& path, std::int64_t width, st
                   " pixels a side");
 }
 
+Expected<void> check_written_image(const std::string& path, const Image& image) {
+  const auto fine = check_image_sides(path, image.width, image.height, image.channels);
+  if (!fine) return fine;
+  const std::size_t needed = static_cast<std::size_t>(image.width) *
+                             static_cast<std::size_t>(image.height) *
+                             static_cast<std::size_t>(image.channels);
+  if (image.pixels.size() == needed) return {};
+  return fail(path, "",
+              "the image has " + std::to_string(image.pixels.size()) + " numbers, not those of " +
+                  shape_of(image.width, image.height, image.channels));
+}
+
 Expected<void> check_image_size(const std::string& path, std::int64_t width, std::int64_t height,
                                 std::int64_t channels, std::uint64_t max_floats) {
   if (const auto fine = check_image_sides(path, width, height, channels); !fine) return fine;
