@@ -65,12 +65,19 @@ DenoiseSettings excess_denoising() {
 }
 
 int denoise_reach(const DenoiseSettings& settings) {
-  return (1 << settings.passes) - 1;
+  // Sparks are spread less far, but are found among their neighbours
+  return std::max((1 << settings.passes) - 1, 1 << std::min(settings.passes, kSparkPasses));
+}
+
+DenoiseSettings spark_denoising(DenoiseSettings settings) {
+  settings.passes = std::min(settings.passes, kSparkPasses);
+  settings.geometric_passes = settings.passes;
+  return settings;
 }
 
 std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has_base,
                                        bool measured, bool has_levels, bool has_lobes) {
-  // Light over its level has no rare bright rays, and its samples measure its variance. So the
+  // Light over its level has few rare bright rays, and its samples measure its variance. So the
   // first pass averages variances alone, and not even the smallest shadows are blurred (Schied et
   // al. 2017, sec. 4.4: variances are filtered before they are used)
   const bool knows_noise = has_levels && measured;

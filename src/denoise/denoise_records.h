@@ -19,15 +19,17 @@ LAMBENT_DEVICE_ARRAY(DenoiseArray, DenoiseRecord, 4)
 
 LAMBENT_DEVICE_ARRAY(LobeGuideArray, LobeGuide, 4)
 
-/// Converts sampled light to the passes' format.
+/// Converts sampled light, or a part of it, to the passes' format.
 struct DenoiseStartArguments {
   Vec3Array light;
   Vec3Array base;       ///< Read where `has_base` is 1.
   FloatArray variance;  ///< Variance of its luminance; read where `measured` is 1.
   DenoiseArray out_light;
+  uint width;  ///< Pixels in a row.
   uint count;
   uint has_base;
   uint measured;
+  uint part;  ///< kWholeLight, kWithoutSparks or kSparksAlone.
   uint padding;
 };
 

@@ -17,12 +17,27 @@ void DenoiserVulkan::reserve(std::size_t pixels) {
 void DenoiserVulkan::record(vulkan::Recorder& to, const DenoiseViewOnDevice& view,
                             const NoisyLightOnDevice& light, const DenoiseSettings& settings,
                             Vec3Array filtered, bool adds) const {
+  if (light.variance.address == 0 || light.levels.address == 0) {
+    record_part(to, view, light, kWholeLight, settings, filtered, adds);
+    return;
+  }
+  record_part(to, view, light, kWithoutSparks, settings, filtered, adds);
+  record_part(to, view, light, kSparksAlone, spark_denoising(settings), filtered, true);
+}
+
+void DenoiserVulkan::record_part(vulkan::Recorder& to, const DenoiseViewOnDevice& view,
+                                 const NoisyLightOnDevice& light, uint part,
+                                 const DenoiseSettings& settings, Vec3Array filtered,
+                                 bool adds) const {
   const std::uint32_t count = view.width * view.height;
-  const bool has_base = light.base.address != 0, measured = light.variance.address != 0,
+  const bool has_base = light.base.address != 0,
+             measured = light.variance.address != 0 && part != kSparksAlone,
              has_levels = light.levels.address != 0, has_lobes = view.lobes.address != 0;
   DenoiseArray from{light_[0].address()}, into{light_[1].address()};
-  const DenoiseStartArguments start = {light.light, light.base,         light.variance,     from,
-                                       count,       has_base ? 1u : 0u, measured ? 1u : 0u, 0u};
+  const DenoiseStartArguments start = {
+      light.light, light.base, light.variance,     from,
+      view.width,  count,      has_base ? 1u : 0u, light.variance.address != 0 ? 1u : 0u,
+      part,        0u};
   to.run(kernels_.start, start, count);
   to.barrier();
   for (const AtrousPass& by : denoise_passes(settings, has_base, measured, has_levels, has_lobes)) {

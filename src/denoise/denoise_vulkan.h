@@ -58,6 +58,11 @@ class DenoiserVulkan {
               bool adds = false) const;
 
  private:
+  /// Records the filter of a part of the light: kWholeLight, kWithoutSparks or kSparksAlone.
+  void record_part(vulkan::Recorder& to, const DenoiseViewOnDevice& view,
+                   const NoisyLightOnDevice& light, uint part, const DenoiseSettings& settings,
+                   Vec3Array filtered, bool adds) const;
+
   const vulkan::Device& device_;
   const DenoiseKernels& kernels_;
   vulkan::Buffer light_[2];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lambent/denoise.h"
 
+#include <atomic>
 #include <string>
 
 #include "core/large_pages.h"
@@ -90,6 +91,41 @@ void load_lobes(const DenoiseView& view, PlanePicture& lobes) {
   });
 }
 
+// What sparks.inl.h requires of its includer.
+struct NoisyPixel {
+  const DenoiseView& view;
+  std::span<const vec3> light;
+  ivec2 place;
+};
+using NoisyPixelRef = const NoisyPixel&;
+float fetch_luminance(const NoisyPixel& pixel, int x, int y) {
+  const ivec2 at = pixel.place + ivec2(x, y);
+  if (at.x < 0 || at.y < 0 || at.x >= pixel.view.width || at.y >= pixel.view.height) return 0.0f;
+  return luminance(finite_or_dark(
+      pixel.light[static_cast<std::size_t>(at.y) * static_cast<std::size_t>(pixel.view.width) +
+                  static_cast<std::size_t>(at.x)]));
+}
+
+#include "denoise/sparks.inl.h"
+
+/// Loads light over its level without its sparks, or these alone. Returns whether there are any.
+bool load_part(const DenoiseView& view, const NoisyLight& light, uint part, PlanePicture& to) {
+  std::atomic<bool> any = false;
+  fill_planes(view, kDenoisePlanes, to, [&](const Planes& row, int x, std::size_t i) {
+    const int y = static_cast<int>(i / static_cast<std::size_t>(view.width));
+    const float variance = finite_or_dark(light.variance[i]);
+    const float spark = spark_share({view, light.light, {x, y}}, variance);
+    if (spark > 0.0f) any.store(true, std::memory_order_relaxed);
+    const float share = part == kSparksAlone ? spark : 1.0f - spark;
+    const vec3 kept = share * finite_or_dark(light.light[i]);
+    store_vector(row, kLightPlane, x, kept);
+    row.at(kSpreadPlane)[x] =
+        part == kSparksAlone ? unmeasured_spread(kept, vec3(0.0f)) : variance * share * share;
+    row.at(kSharePlane)[x] = 1.0f;
+  });
+  return any;
+}
+
 void load_light(const DenoiseView& view, const NoisyLight& light, PlanePicture& to) {
   const bool has_base = !light.base.empty();
   fill_planes(view, kDenoisePlanes, to, [&](const Planes& row, int x, std::size_t i) {
@@ -100,6 +136,21 @@ void load_light(const DenoiseView& view, const NoisyLight& light, PlanePicture& 
         light.variance.empty() ? unmeasured_spread(noisy, base) : finite_or_dark(light.variance[i]);
     row.at(kSharePlane)[x] = 1.0f;
     if (has_base) store_vector(row, kBasePlane, x, base);
+  });
+}
+
+/// Stores the filtered light with the detail of its base, if any, or adds it to what is there.
+void store_light(const DenoiseView& view, PlanePicture& from, std::span<const vec3> base, bool adds,
+                 std::span<vec3> filtered) {
+  for_each_row(view.height, [&](int y) {
+    const Planes row = from.row(y);
+    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width);
+    for (int x = 0; x < view.width; ++x) {
+      const std::size_t i = first + static_cast<std::size_t>(x);
+      vec3 light = load_vector(row, 0, x);
+      if (!base.empty()) light = with_detail(light, load_vector(row, kBasePlane, x), base[i]);
+      filtered[i] = adds ? filtered[i] + light : light;
+    }
   });
 }
 
@@ -151,6 +202,15 @@ struct Denoiser::State {
                         light[from].row_floats(), layout.width});
     });
   }
+  /// Runs passes, the first of the picture light[0]. Returns the index of the result.
+  int run_all(const std::vector<AtrousPass>& passes) {
+    int at = 0;
+    for (const AtrousPass& pass : passes) {
+      run(pass, at);
+      at = 1 - at;
+    }
+    return at;
+  }
 };
 
 Denoiser::Denoiser() : state_(new State) {}
@@ -165,25 +225,24 @@ Expected<void> Denoiser::filter(const DenoiseView& view, const NoisyLight& light
   State& s = *state_;
   load_guide(view, light.levels, s.guide);
   if (has_lobes(view)) load_lobes(view, s.lobes);
-  load_light(view, light, s.light[0]);
-  const bool has_base = !light.base.empty();
   s.light[1].shape(view.width, view.height, kDenoisePlanes);
-  int at = 0;
-  for (const AtrousPass& pass : denoise_passes(settings, has_base, !light.variance.empty(),
-                                               !light.levels.empty(), has_lobes(view))) {
-    s.run(pass, at);
-    at = 1 - at;
+  const bool has_base = !light.base.empty(), measured = !light.variance.empty(),
+             has_levels = !light.levels.empty();
+  if (has_levels && measured) {
+    const bool any = load_part(view, light, kWithoutSparks, s.light[0]);
+    const int rest = s.run_all(denoise_passes(settings, false, true, true, false));
+    store_light(view, s.light[rest], {}, false, filtered);
+    if (!any) return {};
+    load_part(view, light, kSparksAlone, s.light[0]);
+    const int sparks =
+        s.run_all(denoise_passes(spark_denoising(settings), false, false, true, false));
+    store_light(view, s.light[sparks], {}, true, filtered);
+    return {};
   }
-  for_each_row(view.height, [&](int y) {
-    const Planes row = s.light[at].row(y);
-    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width);
-    for (int x = 0; x < view.width; ++x) {
-      const std::size_t i = first + static_cast<std::size_t>(x);
-      const vec3 mean = load_vector(row, 0, x);
-      filtered[i] =
-          has_base ? with_detail(mean, load_vector(row, kBasePlane, x), light.base[i]) : mean;
-    }
-  });
+  load_light(view, light, s.light[0]);
+  const int at =
+      s.run_all(denoise_passes(settings, has_base, measured, has_levels, has_lobes(view)));
+  store_light(view, s.light[at], light.base, false, filtered);
   return {};
 }
 

@@ -123,6 +123,32 @@ TEST(Denoise, WithLevelsLeavesLightWithoutNoiseAsItIsUpToItsEdges) {
   }
 }
 
+/// A wall of light 1 that is known well, with one pixel of light 100 in its middle whose standard
+/// error is `error`.
+Wall wall_with_a_bright_pixel(float error) {
+  Wall wall(150, 150);
+  wall.set_light([](int, int, float u) { return vec3(0.9f + 0.2f * u); });
+  wall.levels.assign(wall.light.size(), 1.0f);
+  wall.variance.assign(wall.light.size(), 0.01f);
+  wall.light[wall.at(75, 75)] = vec3(100.0f);
+  wall.variance[wall.at(75, 75)] = error * error;
+  return wall;
+}
+
+TEST(Denoise, SpreadsWhatASingleRareSampleBrought) {
+  // Passes that compare light left 100 in that pixel, whose neighbours are known better
+  const std::vector<vec3> filtered = wall_with_a_bright_pixel(100.0f).filtered(emitter_denoising());
+  float most = 0.0f;
+  for (const vec3& light : filtered) most = std::max(most, light.x);
+  EXPECT_LT(most, 3.0f);
+  EXPECT_NEAR(spread_of(filtered, 1.0).mean, 1.0 + 99.0 / (150.0 * 150.0), 1e-3);
+}
+
+TEST(Denoise, KeepsSmallLightsThatSamplesAgreeOn) {
+  const Wall wall = wall_with_a_bright_pixel(5.0f);
+  EXPECT_GT(wall.filtered(emitter_denoising())[wall.at(75, 75)].x, 90.0f);
+}
+
 TEST(Denoise, KeepsGradientsNearLampsThatAreInTheLevels) {
   // A lamp two pixels above the wall, half of whose light is occluded
   Wall wall(96, 64);
@@ -238,7 +264,8 @@ TEST(Denoise, FiltersAPartWithItsSurroundingsAsItDoesTheWhole) {
   Wall whole(40, 200), part(40, 150);
   whole.set_light([](int, int, float u) { return one_in_eight(u); });
   const DenoiseSettings settings;
-  ASSERT_EQ(denoise_reach(settings), 63);
+  constexpr int kReach = 63;
+  ASSERT_EQ(denoise_reach(settings), kReach);
   constexpr int kFirst = 30;  // row of the whole that the part begins with
   for (std::size_t i = 0; i < part.light.size(); ++i) {
     const std::size_t of_whole = i + static_cast<std::size_t>(kFirst * whole.width);
@@ -246,7 +273,7 @@ TEST(Denoise, FiltersAPartWithItsSurroundingsAsItDoesTheWhole) {
     part.positions[i] = whole.positions[of_whole];
   }
   const std::vector<vec3> expected = whole.filtered(), filtered = part.filtered();
-  for (int y = 63; y < part.height - 63; ++y) {
+  for (int y = kReach; y < part.height - kReach; ++y) {
     for (int x = 0; x < part.width; ++x) {
       EXPECT_EQ(filtered[part.at(x, y)], expected[whole.at(x, y + kFirst)]);
     }

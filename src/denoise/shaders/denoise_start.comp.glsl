@@ -9,6 +9,18 @@ layout(push_constant, scalar) uniform Push {
   DenoiseStartArguments args;
 };
 
+// What sparks.inl.h requires of its includer.
+#define NoisyPixelRef ivec2
+
+float fetch_luminance(ivec2 pixel, int x, int y) {
+  ivec2 place = pixel + ivec2(x, y);
+  ivec2 size = ivec2(int(args.width), int(args.count / args.width));
+  if (any(lessThan(place, ivec2(0))) || any(greaterThanEqual(place, size))) return 0.0f;
+  return luminance(finite_or_dark(args.light.at[place.y * size.x + place.x]));
+}
+
+#include "denoise/sparks.inl.h"
+
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
@@ -16,5 +28,11 @@ void main() {
   vec3 base = args.has_base != 0u ? finite_or_dark(args.base.at[i]) : vec3(0.0f);
   float spread = args.measured != 0u ? finite_or_dark(args.variance.at[i])
                                      : unmeasured_spread(light, base);
+  if (args.part != kWholeLight) {
+    float share = spark_share(ivec2(int(i % args.width), int(i / args.width)), spread);
+    if (args.part == kWithoutSparks) share = 1.0f - share;
+    light *= share;
+    spread = args.part == kWithoutSparks ? spread * share * share : unmeasured_spread(light, base);
+  }
   args.out_light.at[i] = DenoiseRecord(light, spread, base, 1.0f);
 }
