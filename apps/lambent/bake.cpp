@@ -280,6 +280,7 @@ void add_bake(CLI::App& app, Run& run) {
       ->check(whole_number(1, kMaxThreads))
       ->type_name("N");
   command->add_option("--stats", o->stats, "Write times and counts to this .json file")
+      ->check(file_name())
       ->type_name("FILE");
   command
       ->add_option("--checkpoint", o->checkpoint,

@@ -297,6 +297,7 @@ void add_compare(CLI::App& app, Run& run) {
   command
       ->add_option("--heatmap", options->heat_map_path,
                    "PNG to write: signed relative error and FLIP, a row for each layer")
+      ->check(file_name())
       ->type_name("FILE");
   command
       ->add_option("--block", options->block,

@@ -9,6 +9,7 @@
 #include "lambent/denoise.h"
 #include "lambent/quality.h"
 #include "lambent/render_output.h"
+#include "temporal/taa_records.h"
 
 namespace lambent::cli {
 namespace {
@@ -18,9 +19,10 @@ constexpr std::uint64_t kLayerBytes = 3 * sizeof(float);
 constexpr std::uint64_t kFrameBytes = 10 * kLayerBytes + sizeof(float);
 // Motion: a record of five words per pixel, and a layer of two.
 constexpr std::uint64_t kMotionBytes = (5 + 2) * sizeof(float);
-// Temporal anti-aliasing: another record of motion, and seven words for this frame and for the one
+// Temporal anti-aliasing: another record of motion, and a record of this frame and of the one
 // before.
-constexpr std::uint64_t kTaaBytes = (5 + 2 * 7) * sizeof(float);
+constexpr std::uint64_t kTaaBytes = sizeof(PixelMotion) + 2 * sizeof(TaaPixel);
+static_assert(kTaaBytes == 108, "FrameSettings::temporal_antialiasing says how much it is");
 // A picture that is written or compared, in addition to the frame: its display-encoded form, and a
 // copy.
 constexpr std::uint64_t kWritingBytes = 2 * kLayerBytes;

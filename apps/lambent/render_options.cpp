@@ -122,6 +122,7 @@ void add_output_options(CLI::App& command, RenderOptions& o) {
   command.option_defaults()->group("Layers and measurements");
   command.add_flag("--layers", o.layers, "Write every layer of the frame, .exr only");
   command.add_option("--stats", o.stats, "Write times and counts to this .json file")
+      ->check(file_name())
       ->type_name("FILE");
   command
       .add_option("--verify", o.verify_samples,

@@ -30,7 +30,7 @@ CLI::Validator number(double low, double high);
 /// Finite numbers above 0, up to `high`.
 CLI::Validator number_above_zero(double high);
 
-/// Any text but none, as of a variable that the shell does not know.
+/// Accepts text that is not empty. Shells pass an empty text for a variable that is not set.
 CLI::Validator file_name();
 
 /// One of some words; for others, the error suggests the nearest.

@@ -64,7 +64,8 @@ struct DenoiseSettings {
   /// to `passes`. The noise is estimated in them. Light of few rays needs two, since a bright ray
   /// differs from everything around it. Where both variance and levels are given, the first pass
   /// averages the variance and leaves the light unchanged, and the pixels of all other passes are
-  /// half as far apart.
+  /// half as far apart; light that single rare samples brought (fireflies) is taken off first and
+  /// spread over 15 x 15 pixels without regard to differences of light.
   int geometric_passes = 2;
   /// Neighbours have the weight exp(-sharpness * (1 - cosine between normals)); 0 to 1024.
   float normal_sharpness = 8.0f;
@@ -110,7 +111,8 @@ class Denoiser {
   /// Writes an estimate of what the view's light would be with many more samples: width * height of
   /// vec3, >= 0. Runs on all cores. The result has the same bits on any number of threads, and for
   /// a part of a picture that has denoise_reach() more rows on each side. Fails on sizes and
-  /// settings that are out of range and on spans whose sizes are not the view's.
+  /// settings that are out of range and on spans whose sizes are not the view's. `filtered` must
+  /// not overlap what is filtered.
   Expected<void> filter(const DenoiseView& view, const NoisyLight& light,
                         const DenoiseSettings& settings, std::span<glm::vec3> filtered);
 

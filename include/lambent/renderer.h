@@ -84,8 +84,8 @@ struct FrameSettings {
   /// picture to the next, and the last picture is reprojected by its motion and clamped to the
   /// colours around each pixel. For sequences; not together with parts of a picture. The first
   /// picture, the first one after a change of size, and surfaces that come into sight have no
-  /// history. Give each frame another seed, so that noise falls as well. Costs motion, and 76 bytes
-  /// and about 0.2 us per pixel.
+  /// history. Give each frame another seed, so that noise falls as well. Costs motion, and 108
+  /// bytes and about 0.2 us per pixel.
   bool temporal_antialiasing = false;
   /// Radiance at which the camera sees a white surface of Material::unlit [W/(m^2 sr)], 0 to 1e10:
   /// the inverse of the exposure displays such colours unchanged. In reflections, through glass and

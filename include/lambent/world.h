@@ -66,11 +66,11 @@ class World {
   /// materials and the environment's numbers are compared; for meshes, textures and the
   /// environment's map, `revision` and size are. Meshes, materials and textures may be added at the
   /// end. Traces some thousand rays to follow what is known of the visibility of lights. Returns
-  /// the changes; where there are none, the revision is the last one. Fails on edits of these that
-  /// validate would refuse, naming the culprit; the world then stays as it was, and must not be
-  /// used before the scene is mended and update has been called again. Cameras, rigs and fog are
-  /// not looked at. Not to be called while the world is read. Throws std::runtime_error where
-  /// memory runs out.
+  /// the changes; where there are none, the revision is the last one. Fails on edits of what it
+  /// compares that validate would refuse, naming the culprit; the world then stays as it was, and
+  /// must not be used before the scene is mended and update has been called again. Cameras, rigs
+  /// and fog are not looked at. Not to be called while the world is read. Throws std::runtime_error
+  /// where memory runs out.
   Expected<WorldChanges> update();
 
   /// Number of updates so far that found changes.

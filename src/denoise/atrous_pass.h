@@ -57,16 +57,17 @@ const float kLeastVariance = 1e-6f;
 // variance is unknown, and the window's estimate is enlarged by at most 1 / (1 - this).
 const float kMostKnownShare = 0.98f;
 
-// Sparks are more than this many times as bright as the second brightest of the pixels around them,
-// and their samples' standard error is at least this share of their light: what many samples agree
-// on is no spark, however small. A single one of n samples has an error of all of the light.
-const float kSparkOverNeighbours = 2.0f;
-const float kSparkNoise = 0.5f;
+// Fireflies are more than this many times as bright as the second brightest of the pixels around
+// them, and their samples' standard error is at least this share of their light: what many samples
+// agree on is no firefly, however small. A single one of n samples has an error of all of the
+// light.
+const float kFireflyOverNeighbours = 2.0f;
+const float kFireflyNoise = 0.5f;
 
 // Parts of light that are filtered one after the other.
 const uint kWholeLight = 0u;
-const uint kWithoutSparks = 1u;
-const uint kSparksAlone = 2u;
+const uint kWithoutFireflies = 1u;
+const uint kFirefliesAlone = 2u;
 
 /// Parameters of a pass of the filter.
 struct AtrousPass {

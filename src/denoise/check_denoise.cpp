@@ -65,12 +65,12 @@ DenoiseSettings excess_denoising() {
 }
 
 int denoise_reach(const DenoiseSettings& settings) {
-  // Sparks are spread less far, but are found among their neighbours
-  return std::max((1 << settings.passes) - 1, 1 << std::min(settings.passes, kSparkPasses));
+  // Fireflies are spread over up to 7 pixels, and their neighbours one pixel farther tell them
+  return std::max((1 << settings.passes) - 1, 1 << std::min(settings.passes, kFireflyPasses));
 }
 
-DenoiseSettings spark_denoising(DenoiseSettings settings) {
-  settings.passes = std::min(settings.passes, kSparkPasses);
+DenoiseSettings firefly_denoising(DenoiseSettings settings) {
+  settings.passes = std::min(settings.passes, kFireflyPasses);
   settings.geometric_passes = settings.passes;
   return settings;
 }

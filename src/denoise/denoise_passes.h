@@ -13,11 +13,11 @@ namespace lambent {
 std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has_base,
                                        bool measured, bool has_levels, bool has_lobes);
 
-/// Most passes that spread sparks, over 15 x 15 pixels. With five, small spots of light that few
+/// Most passes that spread fireflies, over 15 x 15 pixels. With five, small spots of light that few
 /// samples find were spread over walls.
-inline constexpr int kSparkPasses = 3;
+inline constexpr int kFireflyPasses = 3;
 
-/// The settings by which sparks are spread: without regard to differences of light.
-DenoiseSettings spark_denoising(DenoiseSettings settings);
+/// The settings by which fireflies are spread: without regard to differences of light.
+DenoiseSettings firefly_denoising(DenoiseSettings settings);
 
 }  // namespace lambent

@@ -29,7 +29,7 @@ struct DenoiseStartArguments {
   uint count;
   uint has_base;
   uint measured;
-  uint part;  ///< kWholeLight, kWithoutSparks or kSparksAlone.
+  uint part;  ///< kWholeLight, kWithoutFireflies or kFirefliesAlone.
   uint padding;
 };
 

@@ -21,8 +21,8 @@ void DenoiserVulkan::record(vulkan::Recorder& to, const DenoiseViewOnDevice& vie
     record_part(to, view, light, kWholeLight, settings, filtered, adds);
     return;
   }
-  record_part(to, view, light, kWithoutSparks, settings, filtered, adds);
-  record_part(to, view, light, kSparksAlone, spark_denoising(settings), filtered, true);
+  record_part(to, view, light, kWithoutFireflies, settings, filtered, adds);
+  record_part(to, view, light, kFirefliesAlone, firefly_denoising(settings), filtered, true);
 }
 
 void DenoiserVulkan::record_part(vulkan::Recorder& to, const DenoiseViewOnDevice& view,
@@ -31,7 +31,7 @@ void DenoiserVulkan::record_part(vulkan::Recorder& to, const DenoiseViewOnDevice
                                  bool adds) const {
   const std::uint32_t count = view.width * view.height;
   const bool has_base = light.base.address != 0,
-             measured = light.variance.address != 0 && part != kSparksAlone,
+             measured = light.variance.address != 0 && part != kFirefliesAlone,
              has_levels = light.levels.address != 0, has_lobes = view.lobes.address != 0;
   DenoiseArray from{light_[0].address()}, into{light_[1].address()};
   const DenoiseStartArguments start = {

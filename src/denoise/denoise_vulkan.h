@@ -58,7 +58,7 @@ class DenoiserVulkan {
               bool adds = false) const;
 
  private:
-  /// Records the filter of a part of the light: kWholeLight, kWithoutSparks or kSparksAlone.
+  /// Records the filter of a part of the light: kWholeLight, kWithoutFireflies or kFirefliesAlone.
   void record_part(vulkan::Recorder& to, const DenoiseViewOnDevice& view,
                    const NoisyLightOnDevice& light, uint part, const DenoiseSettings& settings,
                    Vec3Array filtered, bool adds) const;

@@ -91,7 +91,7 @@ void load_lobes(const DenoiseView& view, PlanePicture& lobes) {
   });
 }
 
-// What sparks.inl.h requires of its includer.
+// What fireflies.inl.h requires of its includer.
 struct NoisyPixel {
   const DenoiseView& view;
   std::span<const vec3> light;
@@ -106,37 +106,31 @@ float fetch_luminance(const NoisyPixel& pixel, int x, int y) {
                   static_cast<std::size_t>(at.x)]));
 }
 
-#include "denoise/sparks.inl.h"
+#include "denoise/fireflies.inl.h"
 
-/// Loads light over its level without its sparks, or these alone. Returns whether there are any.
-bool load_part(const DenoiseView& view, const NoisyLight& light, uint part, PlanePicture& to) {
+/// Loads light, or a part of it: kWholeLight, or of light with variances kWithoutFireflies or
+/// kFirefliesAlone. Returns whether there are fireflies, of a part.
+bool load_light(const DenoiseView& view, const NoisyLight& light, uint part, PlanePicture& to) {
+  const bool has_base = !light.base.empty(), measured = !light.variance.empty();
   std::atomic<bool> any = false;
   fill_planes(view, kDenoisePlanes, to, [&](const Planes& row, int x, std::size_t i) {
-    const int y = static_cast<int>(i / static_cast<std::size_t>(view.width));
-    const float variance = finite_or_dark(light.variance[i]);
-    const float spark = spark_share({view, light.light, {x, y}}, variance);
-    if (spark > 0.0f) any.store(true, std::memory_order_relaxed);
-    const float share = part == kSparksAlone ? spark : 1.0f - spark;
-    const vec3 kept = share * finite_or_dark(light.light[i]);
-    store_vector(row, kLightPlane, x, kept);
-    row.at(kSpreadPlane)[x] =
-        part == kSparksAlone ? unmeasured_spread(kept, vec3(0.0f)) : variance * share * share;
-    row.at(kSharePlane)[x] = 1.0f;
-  });
-  return any;
-}
-
-void load_light(const DenoiseView& view, const NoisyLight& light, PlanePicture& to) {
-  const bool has_base = !light.base.empty();
-  fill_planes(view, kDenoisePlanes, to, [&](const Planes& row, int x, std::size_t i) {
-    const vec3 noisy = finite_or_dark(light.light[i]);
+    const float variance = measured ? finite_or_dark(light.variance[i]) : 0.0f;
+    float share = 1.0f;
+    if (part != kWholeLight) {
+      const int y = static_cast<int>(i / static_cast<std::size_t>(view.width));
+      const float firefly = firefly_share({view, light.light, {x, y}}, variance);
+      if (firefly > 0.0f) any.store(true, std::memory_order_relaxed);
+      share = part == kFirefliesAlone ? firefly : 1.0f - firefly;
+    }
+    const vec3 noisy = share * finite_or_dark(light.light[i]);
     const vec3 base = has_base ? finite_or_dark(light.base[i]) : vec3(0.0f);
     store_vector(row, kLightPlane, x, noisy);
-    row.at(kSpreadPlane)[x] =
-        light.variance.empty() ? unmeasured_spread(noisy, base) : finite_or_dark(light.variance[i]);
+    row.at(kSpreadPlane)[x] = measured && part != kFirefliesAlone ? share * share * variance
+                                                                  : unmeasured_spread(noisy, base);
     row.at(kSharePlane)[x] = 1.0f;
     if (has_base) store_vector(row, kBasePlane, x, base);
   });
+  return any;
 }
 
 /// Stores the filtered light with the detail of its base, if any, or adds it to what is there.
@@ -228,21 +222,16 @@ Expected<void> Denoiser::filter(const DenoiseView& view, const NoisyLight& light
   s.light[1].shape(view.width, view.height, kDenoisePlanes);
   const bool has_base = !light.base.empty(), measured = !light.variance.empty(),
              has_levels = !light.levels.empty();
-  if (has_levels && measured) {
-    const bool any = load_part(view, light, kWithoutSparks, s.light[0]);
-    const int rest = s.run_all(denoise_passes(settings, false, true, true, false));
-    store_light(view, s.light[rest], {}, false, filtered);
-    if (!any) return {};
-    load_part(view, light, kSparksAlone, s.light[0]);
-    const int sparks =
-        s.run_all(denoise_passes(spark_denoising(settings), false, false, true, false));
-    store_light(view, s.light[sparks], {}, true, filtered);
-    return {};
-  }
-  load_light(view, light, s.light[0]);
-  const int at =
-      s.run_all(denoise_passes(settings, has_base, measured, has_levels, has_lobes(view)));
-  store_light(view, s.light[at], light.base, false, filtered);
+  const bool splits = measured && has_levels;
+  const bool fireflies =
+      load_light(view, light, splits ? kWithoutFireflies : kWholeLight, s.light[0]);
+  int at = s.run_all(denoise_passes(settings, has_base, measured, has_levels, has_lobes(view)));
+  store_light(view, s.light[at], light.base, /*adds=*/false, filtered);
+  if (!fireflies) return {};
+  load_light(view, light, kFirefliesAlone, s.light[0]);
+  at = s.run_all(denoise_passes(firefly_denoising(settings), has_base, /*measured=*/false,
+                                has_levels, has_lobes(view)));
+  store_light(view, s.light[at], light.base, /*adds=*/true, filtered);
   return {};
 }
 

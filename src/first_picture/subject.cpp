@@ -75,7 +75,7 @@ bool is_open_above(const World& world, const Bounds& rest,
 std::size_t count_dwarfing(const World& world, std::span<const Bounds> boxes,
                            std::span<const std::uint32_t> order, std::span<const Bounds> around,
                            std::size_t kept) {
-  bool grounds = true, skies = true, stands = false;
+  bool grounds = true, skies = true, has_ground_or_shell = false;
   for (std::size_t left = kept; left-- > 1;) {
     const Bounds& rest = around[left - 1];
     const Bounds& largest = boxes[order[left]];
@@ -83,12 +83,12 @@ std::size_t count_dwarfing(const World& world, std::span<const Bounds> boxes,
     const bool around_rest = encloses(largest, rest);
     if (!ground && !around_rest && !is_wall_beside(largest, rest)) return 0;
     grounds = grounds && ground;
-    stands = stands || ground || around_rest;
+    has_ground_or_shell = has_ground_or_shell || ground || around_rest;
     skies = skies && (ground || around_rest);
     const float share = diagonal(rest) / diagonal(around[kept - 1]);
-    if (share == 0.0f) return 0;
+    if (!(share > 0.0f)) return 0;
     if (skies && share < kDwarfedBySky) return kept - left;
-    if (share >= kDwarfedByGround || !stands) continue;
+    if (share >= kDwarfedByGround || !has_ground_or_shell) continue;
     if (grounds || is_open_above(world, rest, order.subspan(left, kept - left))) return kept - left;
   }
   return 0;
@@ -222,14 +222,17 @@ Subject find_subject(const World& world) {
     all.push_back(i);
     if (!is_panel_of_light(scene, i)) others.push_back(i);
   }
-  const bool panels = others.size() < all.size();
+  const std::size_t count = all.size();
+  const bool panels = others.size() < count;
   Subject subject = find_subject_among(world, boxes, std::move(all));
-  // Panels of light that hang around what stands before a backdrop belong to the studio
+  // Panels of light that keep a backdrop from being found hang around what stands before it
   if (panels) {
-    const std::size_t count = others.size();
-    const Subject without = find_subject_among(world, boxes, std::move(others));
-    if (!without.instances.empty() && without.instances.size() < count) {
-      subject.instances = without.instances;
+    const std::size_t dropped = count - subject.instances.size();
+    const std::size_t count_without = others.size();
+    Subject without = find_subject_among(world, boxes, std::move(others));
+    const bool any = !without.instances.empty();
+    if (any && count_without - without.instances.size() > dropped) {
+      subject.instances = std::move(without.instances);
       subject.bounds = without.bounds;
     }
   }

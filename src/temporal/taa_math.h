@@ -63,15 +63,20 @@ const float kDepthSteps = 1.5f;
 const float kMaxOvershoot = 1.0f / 8.0f;
 
 // Samples of one pixel met different surfaces where their depths differ by more than this share: of
-// a thin thing and of what is behind it, or of both sides of an edge.
+// a thin thing and of what is behind it.
 const float kOtherSurfaceShare = 0.02f;
 
 // Most frames for which the last sample that met another surface is remembered: jitter has then
 // visited each sixteenth of the pixel twice.
 const uint kMostFramesOfOther = 32u;
 
-// Greatest change of light from one frame to the next by which that sample's light is scaled.
-const float kMaxLightChange = 4.0f;
+// Greatest radiance of the other sample over the present one's luminance: far above that of a lamp
+// before a wall, and small enough to be multiplied.
+const float kMostOverPresent = 1e6f;
+
+// What is two pixels away on either side of a pixel differs in depth by four steps from a pixel to
+// the next. Half as much again is for slopes that are not even.
+const float kAcrossSlack = 1.5f;
 
 // Makes the random numbers of jitter independent of those of other passes.
 const uint kJitterSalt = 0x4A495454u;
@@ -88,47 +93,48 @@ struct TaaPixel {
   float farthest_depth;
   uint moved;    ///< 1: the nearest surface in it and beside it moved itself.
   float frames;  ///< Number of frames that the radiance is a mean of, >= 1.
-  /// Radiance of the frame's sample (in the upper half of each word) and of the last sample that
-  /// met another surface (in the lower), in today's light [W/(m^2 sr)].
+  /// Radiance of the frame's sample [W/(m^2 sr)] in the upper half of each word. In the lower, that
+  /// of the last sample that met another surface, over the luminance of the first one after it.
   uvec3 samples;
   uint other_age;  ///< Frames since that other sample, up to kMostFramesOfOther; then it is void.
 };
 
-/// The last sample of a pixel that met another surface than its present one does.
+/// The last sample of a pixel that met another surface than its present one does. The light of both
+/// is taken to change alike.
 struct OtherSample {
-  vec3 radiance;  ///< [W/(m^2 sr)]
-  uint age;       ///< Frames since it was taken; kMostFramesOfOther: there is none.
+  vec3 ratio;  ///< Its radiance over the present one's luminance.
+  uint age;    ///< Frames since it was taken; kMostFramesOfOther: there is none.
 };
 
-LAMBENT_FN uvec3 pack_samples(vec3 radiance, vec3 other) {
-  return uvec3(pack_upper_halves(radiance.x, other.x), pack_upper_halves(radiance.y, other.y),
-               pack_upper_halves(radiance.z, other.z));
+LAMBENT_FN uvec3 pack_samples(vec3 radiance, vec3 ratio) {
+  return uvec3(pack_upper_halves(radiance.x, ratio.x), pack_upper_halves(radiance.y, ratio.y),
+               pack_upper_halves(radiance.z, ratio.z));
 }
 LAMBENT_FN vec3 latest_sample(TaaPixel pixel) {
   return vec3(unpack_upper_half(pixel.samples.x), unpack_upper_half(pixel.samples.y),
               unpack_upper_half(pixel.samples.z));
 }
-LAMBENT_FN vec3 other_sample(TaaPixel pixel) {
+LAMBENT_FN vec3 other_ratio(TaaPixel pixel) {
   return vec3(unpack_lower_half(pixel.samples.x), unpack_lower_half(pixel.samples.y),
               unpack_lower_half(pixel.samples.z));
 }
 
-/// Follows the other sample from a pixel's previous frame to one whose sample shows `radiance` at
-/// this depth. Depths of one surface may differ by `slack` [m]. While the same surface is met, the
-/// light of the other is taken to change as that of the one that is met.
-LAMBENT_FN OtherSample follow_other(TaaPixel before, vec3 radiance, float depth, float slack) {
-  vec3 latest = latest_sample(before);
+/// Follows the other sample from a pixel's previous frame to one whose sample has this luminance
+/// and depth. Depths of one surface may differ by `slack` [m].
+LAMBENT_FN OtherSample follow_other(TaaPixel before, float brightness, float depth, float slack) {
   bool met_other =
       max(depth, before.depth) > min(depth, before.depth) * (1.0f + kOtherSurfaceShare) + slack;
-  if (met_other) {
-    OtherSample fresh = {latest, 0u};
-    return fresh;
+  if (!met_other) {
+    OtherSample kept = {other_ratio(before), min(before.other_age + 1u, kMostFramesOfOther)};
+    return kept;
   }
-  float brightness = luminance(latest);
-  float change = brightness > 0.0f ? min(luminance(radiance) / brightness, kMaxLightChange) : 1.0f;
-  OtherSample kept = {change * other_sample(before),
-                      min(before.other_age + 1u, kMostFramesOfOther)};
-  return kept;
+  // Beside a black sample, nothing tells how its light changes
+  float most = kMostOverPresent * brightness;
+  vec3 latest = latest_sample(before);
+  OtherSample none = {vec3(0.0f), kMostFramesOfOther};
+  if (!(max(latest.x, max(latest.y, latest.z)) < most)) return none;
+  OtherSample fresh = {latest / brightness, 0u};
+  return fresh;
 }
 
 /// Element k, 0 to 3, of the permutation of 0 to 3 that a random number selects.

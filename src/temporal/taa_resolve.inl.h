@@ -111,9 +111,8 @@ LAMBENT_FN float depth_slack(TaaFrame frame, TaaPictureRef picture, ivec2 pixel,
   return kDepthSteps * (across + down);
 }
 
-/// Difference of depth between what is on either side of a pixel, two pixels away [m]: of slopes
-/// and edges, but not of things about as wide as a pixel, which show in one column or its
-/// neighbour.
+/// Difference of depth between what is two pixels away on either side [m]. It is large on slopes
+/// and at edges, but not at things about as wide as a pixel, which end between.
 LAMBENT_FN float depth_across(TaaFrame frame, TaaPictureRef picture, ivec2 pixel) {
   float right = depth_at(frame, picture, pixel.x + 2, pixel.y);
   float left = depth_at(frame, picture, pixel.x - 2, pixel.y);
@@ -123,6 +122,25 @@ LAMBENT_FN float depth_across(TaaFrame frame, TaaPictureRef picture, ivec2 pixel
   float across = right == left ? 0.0f : abs(right - left);
   float down = below == above ? 0.0f : abs(below - above);
   return across + down;
+}
+
+/// The history that a pixel keeps.
+struct KeptHistory {
+  vec3 radiance;  ///< Compressed; see compress_radiance.
+  float frames;   ///< Number of frames that it counts for.
+};
+
+/// Clips the history to the pixel's present neighbourhood. History far outside the box is old
+/// light: the farther, the fewer frames it counts for. After an edit of light (`relit`), they fall
+/// with the square of the distance; otherwise the cause may be a thin thing that single frames
+/// miss.
+LAMBENT_FN KeptHistory clipped_history(TaaNeighbourhood around, KeptHistory kept, bool relit) {
+  vec3 color = ycocg_from_rgb(kept.radiance);
+  float distance = distance_over_box(around, color);
+  float outside = max(distance, 1.0f);
+  KeptHistory clipped = {rgb_from_ycocg(clip_history(around, color, distance)),
+                         kept.frames / (relit ? outside * outside : outside)};
+  return clipped;
 }
 
 /// The filtered pixel, which is shown and becomes the next frame's history.
@@ -148,34 +166,30 @@ LAMBENT_FN TaaPixel resolve_taa(TaaFrame frame, TaaPictureRef picture, TaaHistor
   float slack = depth_slack(frame, picture, pixel, depth);
   if (was_hidden(found.nearest.depth_before, before.farthest_depth, slack)) return fresh;
 
-  // Clip the history to the pixel's present neighbourhood
-  vec3 now = compress_radiance(radiance, found.mean);
-  vec3 kept = compress_radiance(history_at(frame, history, place), found.mean);
   bool rests = found.nearest.offset.x == 0.0f && found.nearest.offset.y == 0.0f;
-  float most_frames = rests ? frame.most_frames : kMovingHistoryFrames;
-  float frames = min(before.frames, most_frames);
-  // What is thinner than a pixel is missed by some frames, by the neighbours' samples, too
+  // All pixels take their samples at one place, so that some frames miss a thing thinner than a
+  // pixel in all of them
   OtherSample other = {vec3(0.0f), kMostFramesOfOther};
-  if (rests && moves == 0u) {
-    float across = kDepthSteps * depth_across(frame, picture, pixel);
-    other = follow_other(before, radiance, depth, across);
+  bool own_moves = fetch_motion(picture, pixel).known == kObjectMotion;
+  if (rests && moves == 0u && !own_moves) {
+    float across = kAcrossSlack * depth_across(frame, picture, pixel);
+    other = follow_other(before, luminance(radiance), depth, across);
   }
   bool mixed = other.age < kMostFramesOfOther;
+  vec3 now = compress_radiance(radiance, found.mean);
+  float most_frames = rests ? frame.most_frames : kMovingHistoryFrames;
+  KeptHistory history_now = {compress_radiance(history_at(frame, history, place), found.mean),
+                             min(before.frames, most_frames)};
   if (frame.clip_deviations > 0.0f) {
     TaaNeighbourhood around = neighbourhood_at(frame, picture, pixel, found.mean);
     if (mixed) {
-      vec3 shown = compress_radiance(other.radiance, found.mean);
+      vec3 shown = compress_radiance(luminance(radiance) * other.ratio, found.mean);
       around = include_color(around, ycocg_from_rgb(shown));
     }
-    vec3 color = ycocg_from_rgb(kept);
-    float distance = distance_over_box(around, color);
-    kept = rgb_from_ycocg(clip_history(around, color, distance));
-    // History far outside the box is old light: the farther, the fewer frames it counts for. After
-    // an edit of light, they fall with the square of the distance; otherwise the cause may be a
-    // thin thing that single frames miss
-    float outside = max(distance, 1.0f);
-    frames /= frame.relit != 0u ? outside * outside : outside;
+    history_now = clipped_history(around, history_now, frame.relit != 0u);
   }
+  vec3 kept = history_now.radiance;
+  float frames = history_now.frames;
   vec3 mean = mix(kept, now, 1.0f / (frames + 1.0f));
   // Some samples hit an edge and others miss it: both depths are remembered for a frame, or as long
   // as the other sample is
@@ -184,7 +198,7 @@ LAMBENT_FN TaaPixel resolve_taa(TaaFrame frame, TaaPictureRef picture, TaaHistor
                      max(depth, mixed ? before.farthest_depth : before.depth),
                      moves,
                      frames + 1.0f,
-                     pack_samples(radiance, other.radiance),
+                     pack_samples(radiance, other.ratio),
                      other.age};
   return result;
 }

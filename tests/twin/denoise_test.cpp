@@ -28,7 +28,7 @@ struct NoisyWall {
         const float u = next_uniform(random);
         light.push_back(u < 0.2f ? vec3(3.0f, 2.0f, along) : vec3(0.1f));
         base.push_back(vec3(0.5f + 0.2f * next_uniform(random)));
-        // Some of the bright pixels are sparks
+        // Some of the bright pixels are fireflies
         variance.push_back(u < 0.1f ? 9.0f : u * u);
         levels.push_back(0.1f + along);
         to_viewer.push_back(normalize(vec3(0.3f - along, 0.2f, 1.0f)));

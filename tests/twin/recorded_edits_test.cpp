@@ -117,6 +117,25 @@ TEST_F(RecordedEdits, AnObjectThatMovesIsFollowed) {
   EXPECT_GE(difference(light_of(untold), expected), 1.5 * kNoise);
 }
 
+TEST_F(RecordedEdits, FollowsLightThatBecomesMuchBrighterAsTheProcessorDoes) {
+  Edited edited;
+  const FieldSettings settings = settings_of_edits();
+  for (Material& material : edited.scene.materials) material.emission *= 0.01f;
+  edited.edit();
+  RecordedField field = settled(edited, settings);
+  IrradianceField on_cpu = IrradianceField::make(settings, cornell().bounds()).value();
+  for (int i = 0; i < kUpdates; ++i) on_cpu.update(edited.world);
+  std::vector<vec3> scaled = light_of(field);
+  for (vec3& light : scaled) light *= 100.0f;
+  for (Material& material : edited.scene.materials) material.emission *= 100.0f;
+  edited.edit();
+  update(field, edited.plan(), edited.world);
+  on_cpu.update(edited.world);
+  EXPECT_LE(difference(light_of(field), test::look_up(on_cpu, test::seen_points(cornell()))), 0.01);
+  // Most of the history is given up, for the light may be of another lamp
+  EXPECT_GT(difference(light_of(field), scaled), 0.02);
+}
+
 TEST_F(RecordedEdits, FollowsWhatTheProcessorsFieldFollows) {
   Edited edited;
   const FieldSettings settings = settings_of_edits();

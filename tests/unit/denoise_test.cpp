@@ -263,6 +263,8 @@ TEST(Denoise, KeepsAnEdgeOfLightThatStandsOutFromTheNoise) {
 TEST(Denoise, FiltersAPartWithItsSurroundingsAsItDoesTheWhole) {
   Wall whole(40, 200), part(40, 150);
   whole.set_light([](int, int, float u) { return one_in_eight(u); });
+  for (const vec3& light : whole.light) whole.variance.push_back(light.x * light.x);
+  whole.levels.assign(whole.light.size(), 1.0f);
   const DenoiseSettings settings;
   constexpr int kReach = 63;
   ASSERT_EQ(denoise_reach(settings), kReach);
@@ -271,6 +273,8 @@ TEST(Denoise, FiltersAPartWithItsSurroundingsAsItDoesTheWhole) {
     const std::size_t of_whole = i + static_cast<std::size_t>(kFirst * whole.width);
     part.light[i] = whole.light[of_whole];
     part.positions[i] = whole.positions[of_whole];
+    part.variance.push_back(whole.variance[of_whole]);
+    part.levels.push_back(1.0f);
   }
   const std::vector<vec3> expected = whole.filtered(), filtered = part.filtered();
   for (int y = kReach; y < part.height - kReach; ++y) {

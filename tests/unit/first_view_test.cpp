@@ -201,7 +201,7 @@ TEST(FirstView, DoesNotTakeTheWallsOfAnEmptyRoomForAStudio) {
   const Mesh thing = box_mesh({-0.4f, 0, -0.4f}, {0.4f, 0.8f, 0.4f});
   const Scene one_mesh = scene_of({thing, box_mesh({-3, 0, -2}, {3, 3, 2}, true)});
   EXPECT_EQ(find_subject(World(one_mesh)).instances.size(), 2u);
-  // The same of six walls
+  // A room of six walls
   Scene scene = scene_of({thing});
   test::add(scene, test::quad({-3, 0, -2}, {6, 0, 0}, {0, 0, 4}, 0));
   test::add(scene, test::quad({-3, 3, -2}, {6, 0, 0}, {0, 0, 4}, 0));
@@ -210,6 +210,17 @@ TEST(FirstView, DoesNotTakeTheWallsOfAnEmptyRoomForAStudio) {
   test::add(scene, test::quad({-3, 0, -2}, {0, 3, 0}, {0, 0, 4}, 0));
   test::add(scene, test::quad({3, 0, -2}, {0, 3, 0}, {0, 0, 4}, 0));
   EXPECT_EQ(find_subject(World(scene)).instances.size(), scene.instances.size());
+}
+
+TEST(FirstView, FramesWhatGlowsOnAGround) {
+  // A cube that glows, and a pebble, stand on a wide ground
+  Scene scene =
+      scene_of({box_mesh({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}),
+                box_mesh({1.0f, 0, 0}, {1.1f, 0.1f, 0.1f}), box_mesh({-50, -1, -50}, {50, 0, 50})});
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].emission = vec3(10.0f);
+  scene.meshes[0].material = 1;
+  EXPECT_EQ(find_subject(World(scene)).instances.size(), 2u);
 }
 
 TEST(FirstView, StandsInARoom) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "temporal/taa.h"
 
@@ -54,7 +55,7 @@ TEST(ThinThings, HardlyFlickersWhileLightChangesSlowly) {
 }
 
 TEST(ThinThings, FollowsLightThatGoesOut) {
-  // Whatever the last frame in the light met
+  // The post or the wall, which the last frame in the light met
   for (int frames = 16; frames < 32; ++frames) {
     PostSequence post;
     float lit = 0.0f, dark = 0.0f;
@@ -62,6 +63,27 @@ TEST(ThinThings, FollowsLightThatGoesOut) {
     for (int i = 0; i < 4; ++i) dark = post.next(0.01f, i == 0);
     EXPECT_LT(dark, 0.03f * lit) << frames;
   }
+}
+
+TEST(ThinThings, FollowsLightThatComesOn) {
+  for (int frames = 16; frames < 32; ++frames) {
+    PostSequence post;
+    float shown = 0.0f;
+    for (int i = 0; i < frames; ++i) post.next(0.01f, i % 2 == 0);
+    for (int i = 0; i < 6; ++i) shown = post.next(1.0f, i == 0);
+    EXPECT_GT(shown, 0.9f * kWall) << frames;
+  }
+}
+
+TEST(ThinThings, OutliveLightThatFlickers) {
+  PostSequence post;
+  float least = 1e9f;
+  for (int i = 0; i < 64; ++i) {
+    const float light = i % 3 == 1 ? 0.0f : 1.0f;
+    const float shown = post.next(light, true);
+    if (i >= 32 && light > 0.0f) least = std::min(least, shown);
+  }
+  EXPECT_GT(least, 0.5f * kWall);
 }
 
 }  // namespace

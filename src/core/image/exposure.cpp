@@ -27,8 +27,9 @@ constexpr double kMetalReflectance = 0.5, kLeastAlbedo = 0.01;
 // exposure is lowered, but by no more than kMaxLowered [stops], so that a patch of sun does not
 // make a room dark.
 constexpr double kBrightShare = 0.1, kBright = 3.0, kMaxLowered = 2.0;
-// What is this much darker [stops] than surfaces that cover this share of the picture counts as
-// black, a million times below: the night side of a planet beside a ship in the sun.
+// What is this much darker [stops] than the brightest surfaces that together cover this share of
+// the picture counts as black, a million times below: the night side of a planet beside a ship in
+// the sun. Pictures of which surfaces are not known have no black.
 constexpr double kBlack = 20.0, kBrightestShare = 0.01;
 // A surface that emits more than this share of the light that it sends counts as a lamp, whatever
 // it reflects.
@@ -56,9 +57,9 @@ struct SurfaceLayers {
         emission(layer_of(frame, "emission")),
         transmission(layer_of(frame, "transmission")) {}
 
-  /// `stops`: the pixel's luminance.
-  bool is_surface(int x, int y, double stops) const {
-    if (is_lamp(x, y, stops)) return false;
+  /// `sent`: the pixel's luminance.
+  bool is_surface(int x, int y, float sent) const {
+    if (is_lamp(x, y, sent)) return false;
     if (is_lit(albedo->at(x, y))) return true;
     return is_hit(x, y) && !shines(emission, x, y) && !shines(transmission, x, y);
   }
@@ -66,10 +67,10 @@ struct SurfaceLayers {
   const Image *albedo, *normal, *emission, *transmission;
 
  private:
-  bool is_lamp(int x, int y, double stops) const {
+  bool is_lamp(int x, int y, float sent) const {
     if (emission == nullptr) return false;
     const float* e = emission->at(x, y);
-    return luminance(vec3(e[0], e[1], e[2])) > kMaxEmitted * static_cast<float>(std::exp2(stops));
+    return luminance(vec3(e[0], e[1], e[2])) > kMaxEmitted * sent;
   }
   bool is_hit(int x, int y) const {
     if (normal == nullptr) return false;
@@ -81,12 +82,15 @@ struct SurfaceLayers {
   }
 };
 
-/// The luminance of a pixel [stops]; not finite where it does not count.
-double luminance_stops(const Image& linear, int x, int y) {
+float luminance_at(const Image& linear, int x, int y) {
   const bool grey = linear.channels < 3;
   const float* in = linear.at(x, y);
-  const float value = luminance(vec3(in[0], in[grey ? 0 : 1], in[grey ? 0 : 2]));
-  return std::log2(value > 0.0f ? static_cast<double>(value) : 0.0);
+  return luminance(vec3(in[0], in[grey ? 0 : 1], in[grey ? 0 : 2]));
+}
+
+/// A luminance in stops; not finite where it does not count.
+double stops_of(float luminance) {
+  return std::log2(luminance > 0.0f ? static_cast<double>(luminance) : 0.0);
 }
 
 /// The number of stops by which a surface of this albedo counts as darker than its luminance.
@@ -101,7 +105,7 @@ double albedo_stops(const float* albedo) {
 void LuminanceHistogram::add(const Image& linear) {
   for (int y = 0; y < linear.height; ++y) {
     for (int x = 0; x < linear.width; ++x) {
-      const double stops = luminance_stops(linear, x, y);
+      const double stops = stops_of(luminance_at(linear, x, y));
       if (std::isfinite(stops)) ++counts_[bin_of(stops)];
     }
   }
@@ -113,9 +117,10 @@ void LuminanceHistogram::add(const LayeredImage& rows) {
   if (layers.albedo == nullptr) return add(linear);
   for (int y = 0; y < linear.height; ++y) {
     for (int x = 0; x < linear.width; ++x) {
-      const double stops = luminance_stops(linear, x, y);
+      const float sent = luminance_at(linear, x, y);
+      const double stops = stops_of(sent);
       if (!std::isfinite(stops)) continue;
-      if (!layers.is_surface(x, y, stops)) {
+      if (!layers.is_surface(x, y, sent)) {
         ++background_[bin_of(stops)];
         continue;
       }
@@ -141,9 +146,10 @@ double LuminanceHistogram::bright_stop(double pixels) const {
   return above < pixels ? kMinStop : stop_of(bin);
 }
 
-double LuminanceHistogram::background_weight() const {
-  const auto all = [](const std::array<std::uint64_t, kBins>& counts) {
-    return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
+double LuminanceHistogram::background_weight(std::size_t first) const {
+  const auto all = [first](const std::array<std::uint64_t, kBins>& counts) {
+    return static_cast<double>(std::accumulate(counts.begin() + static_cast<std::ptrdiff_t>(first),
+                                               counts.end(), std::uint64_t{0}));
   };
   const double surfaces = all(counts_), background = all(background_);
   const double most =
@@ -152,16 +158,15 @@ double LuminanceHistogram::background_weight() const {
 }
 
 float LuminanceHistogram::stops() const {
-  const double weight = background_weight();
   double pixels = 0.0;
   for (std::size_t bin = 0; bin < kBins; ++bin) {
     pixels += static_cast<double>(counts_[bin] + background_[bin]);
   }
-  const double black = bright_stop(kBrightestShare * pixels) - kBlack;
+  const std::size_t first = bin_of(bright_stop(kBrightestShare * pixels) - kBlack);
+  const double weight = background_weight(first);
   std::array<double, kBins> counts{};
   double total = 0.0;
-  for (std::size_t bin = 0; bin < kBins; ++bin) {
-    if (stop_of(bin) < black) continue;
+  for (std::size_t bin = first; bin < kBins; ++bin) {
     counts[bin] =
         static_cast<double>(counts_[bin]) + weight * static_cast<double>(background_[bin]);
     total += counts[bin];

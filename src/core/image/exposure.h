@@ -41,8 +41,8 @@ class LuminanceHistogram {
   /// The luminance [stops] that `pixels` pixels of surfaces reach; the lowest if there are fewer.
   double bright_stop(double pixels) const;
 
-  /// The share with which a pixel of the background counts.
-  double background_weight() const;
+  /// The share with which a pixel of the background counts, by the pixels from bin `first` on.
+  double background_weight(std::size_t first) const;
 
   // Pixels by the luminance as which they count. Of images without layers, all are in `counts_`.
   std::array<std::uint64_t, kBins> counts_{}, background_{};

@@ -9,7 +9,7 @@ layout(push_constant, scalar) uniform Push {
   DenoiseStartArguments args;
 };
 
-// What sparks.inl.h requires of its includer.
+// What fireflies.inl.h requires of its includer.
 #define NoisyPixelRef ivec2
 
 float fetch_luminance(ivec2 pixel, int x, int y) {
@@ -19,7 +19,7 @@ float fetch_luminance(ivec2 pixel, int x, int y) {
   return luminance(finite_or_dark(args.light.at[place.y * size.x + place.x]));
 }
 
-#include "denoise/sparks.inl.h"
+#include "denoise/fireflies.inl.h"
 
 void main() {
   uint i = gl_GlobalInvocationID.x;
@@ -29,10 +29,11 @@ void main() {
   float spread = args.measured != 0u ? finite_or_dark(args.variance.at[i])
                                      : unmeasured_spread(light, base);
   if (args.part != kWholeLight) {
-    float share = spark_share(ivec2(int(i % args.width), int(i / args.width)), spread);
-    if (args.part == kWithoutSparks) share = 1.0f - share;
+    float share = firefly_share(ivec2(int(i % args.width), int(i / args.width)), spread);
+    if (args.part == kWithoutFireflies) share = 1.0f - share;
     light *= share;
-    spread = args.part == kWithoutSparks ? spread * share * share : unmeasured_spread(light, base);
+    bool known = args.part == kWithoutFireflies;
+    spread = known ? spread * share * share : unmeasured_spread(light, base);
   }
   args.out_light.at[i] = DenoiseRecord(light, spread, base, 1.0f);
 }

@@ -10,9 +10,9 @@
 //   |  E_new = g (T_new E_new)  |
 //   +---------------------------+
 // Where nothing changed, the solution is H itself; where all light became k times as bright, it is
-// k H; where all light was switched off, it is 0; and only the change itself has the noise of a
-// single update. T E is stored when the light is solved for, so that g is right however long a
-// probe stays stale.
+// k H (for k up to kMaxDirectGrowth); where all light was switched off, it is 0; and only the
+// change itself has the noise of a single update. T E is stored when the light is solved for, so
+// that g is right however long a probe stays stale.
 //
 // Sleeping probes light open air and hardly any surfel. They are brought up to date after the
 // others have been solved for, some in each update.

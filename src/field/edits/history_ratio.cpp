@@ -24,6 +24,7 @@ std::vector<float> reduce_history_ratios(std::span<const double> direct_before,
                                          std::span<const double> direct_after,
                                          WorkingIrradiance& history_ratio) {
   const std::size_t probes = direct_before.size();
+  if (probes == 0) return {};
   const auto mean = [probes](std::span<const double> light) {
     return static_cast<float>(std::accumulate(light.begin(), light.end(), 0.0) /
                               static_cast<double>(probes));

@@ -14,8 +14,9 @@ namespace lambent {
 /// The ratio of the light that some probes hold to the light that their last rays estimate, texel
 /// by texel.
 WorkingIrradiance history_ratio_of(std::span<const int> probes, const ProbeData& data);
-/// Reduces the history ratios of some probes where an edit changed their direct light much, see
-/// history_share(). Returns that share of each. `direct_before`, `direct_after`: of each probe.
+/// Reduces the history ratios of some probes where an edit made their direct light much brighter,
+/// see history_share(); the mean probe is that of these. Returns that share of each.
+/// `direct_before`, `direct_after`: of each probe.
 std::vector<float> reduce_history_ratios(std::span<const double> direct_before,
                                          std::span<const double> direct_after,
                                          WorkingIrradiance& history_ratio);

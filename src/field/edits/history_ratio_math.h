@@ -17,11 +17,12 @@ const float kMaxHistoryRatio = 2.0f;
 // flash. The limit is beyond what single rays bring, and keeps the division by the ratio finite.
 const float kMinHistoryRatio = 1e-5f;
 
-// Where an edit makes direct light more than this many times as bright or as dark, what lights a
-// place afterwards is mostly other sources than before, whose errors history ratios know nothing
-// of: of a lamp that is switched on beside a small one, which few rays find, all texels were up to
-// kMaxHistoryRatio times too bright. Lamps that flicker stay within it.
-const float kMaxDirectChange = 4.0f;
+// Where an edit makes direct light more than this many times as bright, most of it is taken to come
+// of other sources than before, whose errors history ratios know nothing of: with a lamp that is
+// switched on beside a small one, which few rays find, texels were up to kMaxHistoryRatio times too
+// bright. A lamp alone that becomes much brighter loses its average, too; as totals cannot tell the
+// two apart, the limit is above what flames flicker by.
+const float kMaxDirectGrowth = 4.0f;
 // Probes that receive hardly any direct light are lit by what others reflect, so that this share of
 // the mean probe's counts as their own.
 const float kReflectedShare = 0.1f;
@@ -48,9 +49,7 @@ LAMBENT_FN vec4 history_ratio_between(vec4 last_irradiance_estimate, vec4 held) 
 LAMBENT_FN float history_share(float before, float after, float mean_before, float mean_after) {
   float was = before + kReflectedShare * mean_before;
   float is = after + kReflectedShare * mean_after;
-  float least = min(was, is);
-  float most = max(was, is);
-  return most > kMaxDirectChange * least ? kMaxDirectChange * least / most : 1.0f;
+  return is > kMaxDirectGrowth * was ? kMaxDirectGrowth * was / is : 1.0f;
 }
 
 LAMBENT_FN vec4 reduce_history_ratio(vec4 history_ratio, float share) {

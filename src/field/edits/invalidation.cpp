@@ -260,7 +260,7 @@ void move_distances(const FieldSettings& settings, std::span<const MovedProbe> m
   });
 }
 
-/// The luminance of the direct and sky light along a probe's rays, summed over the rays.
+/// The luminance of the direct and sky light along a probe's rays, averaged over the rays.
 double direct_light_of(const ProbeTrace& trace) {
   double sum = 0.0;
   for (const Surfel& surfel : trace.surfels) {
@@ -268,7 +268,7 @@ double direct_light_of(const ProbeTrace& trace) {
     const vec3 share = surfel.kind == SurfelKind::sky ? vec3(1.0f) : surfel.albedo_over_pi;
     sum += luminance(share * surfel.light);
   }
-  return sum;
+  return trace.surfels.empty() ? 0.0 : sum / static_cast<double>(trace.surfels.size());
 }
 
 /// Recomputes lookups that may have changed: those of changed surfels, and those that read a probe

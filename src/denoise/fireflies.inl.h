@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sparks: pixels that a single rare sample made far brighter than all pixels around them. Passes
+// Fireflies: pixels that a single rare sample made far brighter than all pixels around them. Passes
 // that compare light would leave them as they are, as their neighbours are known to be darker. In
 // the common subset of C++ and GLSL. The includer provides the type
 //   NoisyPixelRef  a pixel of a picture
@@ -9,10 +9,10 @@
 
 /// The share of a pixel's light that is taken off it and spread over its surface, 0 to 1.
 /// `variance`: of its luminance, as its samples measure it.
-LAMBENT_FN float spark_share(NoisyPixelRef pixel, float variance) {
+LAMBENT_FN float firefly_share(NoisyPixelRef pixel, float variance) {
   float own = fetch_luminance(pixel, 0, 0);
-  if (!(variance >= kSparkNoise * kSparkNoise * own * own)) return 0.0f;
-  // Of the eight neighbours, one may be a spark, too
+  if (!(variance >= kFireflyNoise * kFireflyNoise * own * own)) return 0.0f;
+  // Of the eight neighbours, one may be a firefly, too
   float first = 0.0f;
   float second = 0.0f;
   for (int y = -1; y <= 1; ++y) {
@@ -23,6 +23,6 @@ LAMBENT_FN float spark_share(NoisyPixelRef pixel, float variance) {
       first = max(first, there);
     }
   }
-  float most = kSparkOverNeighbours * second;
+  float most = kFireflyOverNeighbours * second;
   return own > most ? 1.0f - most / own : 0.0f;
 }
