@@ -35,8 +35,8 @@ constexpr double kCalmError = 0.025;
 constexpr double kMaxCalmError = 0.04;
 constexpr int kMaxCalmUpdates = 80;
 // Light that would still be noisy (kNoisyField) after the last of them gets no more than this many:
-// where few rays find most of the light, gathering rays meet it themselves. Of eight such scenes,
-// 80 updates brought `indirect` 0 to 2.5 % nearer to the reference (FLIP), for twice the time.
+// where few rays find most of the light, gathering rays meet it themselves. In five such scenes, 80
+// updates brought `indirect` at most 1 % nearer to the reference (FLIP), for twice the time.
 constexpr int kMaxNoisyUpdates = 32;
 // Once all bounces have reached all probes, an update has this share of a full one's rays, which go
 // to the noisiest probes: a bathroom lit by a patch of sun reaches 3 % of error in 4.4 s, with full

@@ -59,8 +59,8 @@ const float kMostKnownShare = 0.98f;
 
 // Fireflies are more than this many times as bright as the second brightest of the pixels around
 // them, and their samples' standard error is at least this share of their light: what many samples
-// agree on is no firefly, however small. A single one of n samples has an error of all of the
-// light.
+// agree on is no firefly, however small. Where one sample of many brought all light, the error is
+// as large as the light.
 const float kFireflyOverNeighbours = 2.0f;
 const float kFireflyNoise = 0.5f;
 

@@ -56,17 +56,16 @@ bool is_open_above(const World& world, const Bounds& rest,
                    std::span<const std::uint32_t> backdrop) {
   glm::vec3 place = 0.5f * (rest.min + rest.max);
   place.y = rest.max.y + kSunkShare * diagonal(rest);
-  int up = 0, met = 0;
   std::vector<Ray> rays;
   for (const Ray& ray : rays_around(place, kRaysAround)) {
     if (ray.direction.y > 0.0f) rays.push_back(ray);
   }
-  for (const Hit& hit : trace(world, rays)) {
-    ++up;
-    if (hit.missed()) continue;
-    met += static_cast<int>(std::count(backdrop.begin(), backdrop.end(), hit.instance));
-  }
-  return static_cast<float>(met) <= kMaxBackdrop * static_cast<float>(up);
+  const std::vector<Hit> hits = trace(world, rays);
+  const auto met = std::count_if(hits.begin(), hits.end(), [&](const Hit& hit) {
+    return !hit.missed() &&
+           std::find(backdrop.begin(), backdrop.end(), hit.instance) != backdrop.end();
+  });
+  return static_cast<float>(met) <= kMaxBackdrop * static_cast<float>(rays.size());
 }
 
 /// Among the `kept` smallest parts, the number of the largest ones that are grounds, skies and

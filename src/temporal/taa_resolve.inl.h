@@ -148,7 +148,8 @@ LAMBENT_FN TaaPixel resolve_taa(TaaFrame frame, TaaPictureRef picture, TaaHistor
                                 ivec2 pixel) {
   TaaSurroundings found = look_around(frame, picture, pixel);
   vec3 radiance = radiance_at(picture, pixel);
-  float depth = fetch_motion(picture, pixel).depth;
+  PixelMotion own = fetch_motion(picture, pixel);
+  float depth = own.depth;
   uint moves = found.nearest.known == kObjectMotion ? 1u : 0u;
   TaaPixel fresh = {
       radiance, depth, depth, moves, 1.0f, pack_samples(radiance, vec3(0.0f)), kMostFramesOfOther};
@@ -170,34 +171,31 @@ LAMBENT_FN TaaPixel resolve_taa(TaaFrame frame, TaaPictureRef picture, TaaHistor
   // All pixels take their samples at one place, so that some frames miss a thing thinner than a
   // pixel in all of them
   OtherSample other = {vec3(0.0f), kMostFramesOfOther};
-  bool own_moves = fetch_motion(picture, pixel).known == kObjectMotion;
-  if (rests && moves == 0u && !own_moves) {
+  if (rests && moves == 0u && own.known != kObjectMotion) {
     float across = kAcrossSlack * depth_across(frame, picture, pixel);
     other = follow_other(before, luminance(radiance), depth, across);
   }
   bool mixed = other.age < kMostFramesOfOther;
   vec3 now = compress_radiance(radiance, found.mean);
   float most_frames = rests ? frame.most_frames : kMovingHistoryFrames;
-  KeptHistory history_now = {compress_radiance(history_at(frame, history, place), found.mean),
-                             min(before.frames, most_frames)};
+  KeptHistory kept = {compress_radiance(history_at(frame, history, place), found.mean),
+                      min(before.frames, most_frames)};
   if (frame.clip_deviations > 0.0f) {
     TaaNeighbourhood around = neighbourhood_at(frame, picture, pixel, found.mean);
     if (mixed) {
       vec3 shown = compress_radiance(luminance(radiance) * other.ratio, found.mean);
       around = include_color(around, ycocg_from_rgb(shown));
     }
-    history_now = clipped_history(around, history_now, frame.relit != 0u);
+    kept = clipped_history(around, kept, frame.relit != 0u);
   }
-  vec3 kept = history_now.radiance;
-  float frames = history_now.frames;
-  vec3 mean = mix(kept, now, 1.0f / (frames + 1.0f));
+  vec3 mean = mix(kept.radiance, now, 1.0f / (kept.frames + 1.0f));
   // Some samples hit an edge and others miss it: both depths are remembered for a frame, or as long
   // as the other sample is
   TaaPixel result = {max(expand_radiance(mean, found.mean), vec3(0.0f)),
                      depth,
                      max(depth, mixed ? before.farthest_depth : before.depth),
                      moves,
-                     frames + 1.0f,
+                     kept.frames + 1.0f,
                      pack_samples(radiance, other.ratio),
                      other.age};
   return result;

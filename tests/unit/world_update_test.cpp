@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "lambent/world.h"
@@ -89,6 +90,10 @@ WorldChanges updated(World& world) {
   }
   return *changes;
 }
+
+// The scene must outlive the world, which a temporary does not.
+static_assert(!std::is_constructible_v<World, Scene>);
+static_assert(std::is_constructible_v<World, const Scene&>);
 
 TEST(WorldUpdate, FindsNothingInASceneThatStaysAsItIs) {
   const Scene scene = furnished_room();

@@ -92,7 +92,7 @@ void DeviceHistory::record_solve(Recorder& to, const DeviceProbes& list,
   to.run(scale_light_, scale, kSumDirectLanes);
   to.barrier();
   scale.step = kScaleLight;
-  to.run(scale_light_, scale, static_cast<std::uint32_t>(list.count() * field_.tile_texels()));
+  to.run(scale_light_, scale, static_cast<std::uint32_t>(list.count()));
   to.barrier();
   solver_.record(to, list, blend_weights, /*largest_blend_weight=*/1.0f, {history_ratio_.address()},
                  solve_settings(field_.settings()));

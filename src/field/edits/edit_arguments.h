@@ -41,7 +41,7 @@ struct HistoryRatioArguments {
 
 // The steps of scale_light.
 const uint kSumDirectLight = 0u;  ///< One workgroup computes `direct_sums`.
-/// Scales the list's light by their ratio, and reduces history ratios, one lane per texel.
+/// Scales the list's light by their ratio, and reduces history ratios, one lane per probe.
 const uint kScaleLight = 1u;
 
 // The lanes of scale_light's workgroups.

@@ -17,7 +17,7 @@
 
 namespace lambent {
 
-/// The luminance of the direct and sky light along each probe's rays, summed over the rays.
+/// The luminance of the direct and sky light along each probe's rays, averaged over the rays.
 std::vector<double> direct_light_of(std::span<const ProbeTrace> traces,
                                     std::span<const int> probes);
 

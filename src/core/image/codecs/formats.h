@@ -29,9 +29,8 @@ inline constexpr std::uint64_t kMaxExrFloats = std::uint64_t{1} << 32;
 Expected<void> check_image_sides(const std::string& path, std::int64_t width, std::int64_t height,
                                  std::int64_t channels);
 
-/// Fails, naming `path`, unless an image is not empty, its sides are within the limit, and it has
-/// the pixels that its size asks for.
-Expected<void> check_written_image(const std::string& path, const Image& image);
+/// Fails, naming `path`, unless an image has the pixels that its size asks for.
+Expected<void> check_pixels_fill_size(const std::string& path, const Image& image);
 
 /// Fails, naming `path`, unless an image of that shape is not empty, within the limits, and fits
 /// into memory.

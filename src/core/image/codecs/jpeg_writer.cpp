@@ -166,7 +166,7 @@ Expected<void> JpegWriter::finish() {
 }
 
 Expected<void> write_jpeg(const std::string& path, const Image& display_encoded, int quality) {
-  if (const auto fine = check_written_image(path, display_encoded); !fine) return fine;
+  if (const auto fine = check_pixels_fill_size(path, display_encoded); !fine) return fine;
   const int channels = display_encoded.channels;
   if (channels != 1 && channels != 3 && channels != 4) {
     return fail(path, "", "a JPEG is made of 1, 3 or 4 channels, not " + std::to_string(channels));

@@ -135,7 +135,7 @@ Expected<void> PngWriter::finish() {
 }
 
 Expected<void> write_png(const std::string& path, const Image& display_encoded) {
-  if (const auto fine = check_written_image(path, display_encoded); !fine) return fine;
+  if (const auto fine = check_pixels_fill_size(path, display_encoded); !fine) return fine;
   Expected<PngWriter> file = PngWriter::open(path, display_encoded.width, display_encoded.height,
                                              display_encoded.channels);
   if (!file) return tl::unexpected(file.error());

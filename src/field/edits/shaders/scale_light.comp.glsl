@@ -20,25 +20,28 @@ vec2 direct_at(int i) {
   return vec2(luminance(args.direct_before.at[i].xyz), luminance(args.direct_after.at[i].xyz));
 }
 
-/// Texel i of the list, which belongs to its probe k.
-void scale(int i, int k, int tile) {
+/// Scales the light of the list's probe k, whose tile has so many texels.
+void scale(int k, int tile) {
   vec2 all = vec2(args.direct_sums.at[0], args.direct_sums.at[1]);
   float brighter = all.x > 0.0 ? all.y / all.x : 1.0;
-  args.light.at[args.list.at[k] * tile + i % tile] *= brighter;
   vec2 own = vec2(0.0);
   for (int t = 0; t < tile; ++t) own += direct_at(k * tile + t);
   float probes = float(args.count);
   float share = history_share(own.x, own.y, all.x / probes, all.y / probes);
-  args.history_ratio.at[i] = reduce_history_ratio(args.history_ratio.at[i], share);
-  if (i == k * tile) args.history_shares.at[k] = share;
+  args.history_shares.at[k] = share;
+  for (int t = 0; t < tile; ++t) {
+    args.light.at[args.list.at[k] * tile + t] *= brighter;
+    int i = k * tile + t;
+    args.history_ratio.at[i] = reduce_history_ratio(args.history_ratio.at[i], share);
+  }
 }
 
 void main() {
   const int tile = kIrradianceTexels * kIrradianceTexels;
   int texels = args.count * tile;
   if (args.step == kScaleLight) {
-    int i = int(gl_GlobalInvocationID.x);
-    if (i < texels) scale(i, i / tile, tile);
+    int k = int(gl_GlobalInvocationID.x);
+    if (k < args.count) scale(k, tile);
     return;
   }
   int lane = int(gl_LocalInvocationIndex);
