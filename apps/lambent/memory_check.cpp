@@ -23,6 +23,8 @@ constexpr std::uint64_t kMotionBytes = (5 + 2) * sizeof(float);
 // before.
 constexpr std::uint64_t kTaaBytes = sizeof(PixelMotion) + 2 * sizeof(TaaPixel);
 static_assert(kTaaBytes == 108, "FrameSettings::temporal_antialiasing says how much it is");
+// Luminances of a pixel's samples, and their sums, by which further ones are chosen.
+constexpr std::uint64_t kNoiseBytes = 45;
 // A picture that is written or compared, in addition to the frame: its display-encoded form, and a
 // copy.
 constexpr std::uint64_t kWritingBytes = 2 * kLayerBytes;
@@ -63,6 +65,7 @@ std::uint64_t bytes_a_pixel(const RenderOptions& options) {
   if (options.method != "reference") bytes += kFrameBytes;
   if (is_filtered(options)) bytes += kFilterBytes;
   if (options.frames > 0 && is_filtered(options)) bytes += kHistoryBytes;
+  if (frame_settings(options, glm::ivec2(1)).most_samples > 0) bytes += kNoiseBytes;
   if (keeps_motion(options)) bytes += kMotionBytes;
   if (uses_taa(options)) bytes += kTaaBytes;
   if (!options.scene.fog.empty() && options.method != "reference") {

@@ -61,6 +61,12 @@ void add_quality_options(CLI::App& command, RenderOptions& o) {
                   "Rays or paths a pixel (the quality's; with --method reference 64)")
       ->check(whole_number(1, kMaxSamples))
       ->type_name("N");
+  command
+      .add_option("--most-samples", o.most_samples,
+                  "Rays of pixels whose samples differ visibly: their number doubles up to this "
+                  "(the quality's; with --samples none)")
+      ->check(whole_number(1, kMaxSamples))
+      ->type_name("N");
 }
 
 FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& size) {
@@ -71,6 +77,8 @@ FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& siz
   frame.temporal_antialiasing = uses_taa(options);
   frame.seed = options.seed;
   if (options.samples > 0) frame.samples = options.samples;
+  // Who names a number means that one
+  if (options.samples > 0 || options.most_samples > 0) frame.most_samples = options.most_samples;
   // Gathering adds a bounce to those of the field, so it is off where the number of bounces is
   // limited
   if (options.method != "field" || options.bounces >= 0) frame.gather_rays = 0;
@@ -119,6 +127,21 @@ bool is_filtered(const RenderOptions& options) {
 Expected<void> check_quality(const RenderOptions& options) {
   if (options.method == "reference" && !options.quality.empty()) {
     return fail("--quality", "", "does not go with --method reference: it traces paths alone");
+  }
+  if (options.most_samples > 0) {
+    if (options.method == "reference") {
+      return fail("--most-samples", "",
+                  "does not go with --method reference: all pixels have as many paths");
+    }
+    if (options.frames > 0) {
+      return fail("--most-samples", "", "goes with single pictures: frames are averaged over time");
+    }
+    const int samples = frame_settings(options, glm::ivec2(1)).samples;
+    if (samples < 2 || options.most_samples < samples) {
+      return fail("--most-samples", std::to_string(options.most_samples),
+                  samples < 2 ? "needs two samples of all pixels, to compare"
+                              : "is less than the samples of all pixels");
+    }
   }
   for (const std::string& pass : options.without) {
     if (options.method == "reference" && pass != "fog") {

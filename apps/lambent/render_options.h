@@ -34,6 +34,7 @@ struct RenderOptions {
   std::string quality;               // empty: depends on the other options
   std::vector<std::string> without;  // passes
   int samples = 0;                   // 0: the quality's, or the reference's default
+  int most_samples = 0;              // 0: the quality's
   int gather_rays = -1;              // -1: the quality's
   int glossy_rows = -1;              // -1: the quality's
   int coat_rays = 0;                 // 0: the quality's

@@ -67,6 +67,7 @@ FrameSettings quality_settings(Quality quality) {
       break;
     case Quality::high:
       settings.samples = 4;
+      settings.most_samples = 16;
       settings.gather_rays = 16;
       settings.glossy_rows = 1;
       settings.coat_rays = 8;
@@ -86,6 +87,7 @@ Expected<void> check(const FrameSettings& s) {
       check_least("first row", s.first_row, 0),
       check_least("rows", s.rows, 0),
       check_least("samples", s.samples, 1),
+      check_least("most samples", s.most_samples, 0),
       check_least("emissive samples", s.emissive_samples, 1),
       check_least("reflected emissive samples", s.reflected_emissive_samples, 1),
       check_least("gather rays", s.gather_rays, 0),

@@ -14,11 +14,15 @@
 namespace lambent {
 namespace {
 
-/// Copies a band's values to their place in `all`, or empties that where there are none.
+/// Stores the values of a band's sampled pixels in `all`, from index `first` on, or empties that
+/// where there are none. `pixels`: the number of traced pixels.
 template <class T>
-void keep(std::span<const T> band, std::size_t first, std::size_t pixels, std::vector<T>& all) {
+void keep(const GBuffer& gbuffer, const std::vector<T>& band, std::size_t first, std::size_t pixels,
+          std::vector<T>& all) {
   all.resize(band.empty() ? 0 : pixels);
-  if (!band.empty()) std::copy(band.begin(), band.end(), &all[first]);
+  for (std::size_t i = 0; i < band.size(); ++i) {
+    if (!gbuffer.skips(i)) all[first + i] = band[i];
+  }
 }
 
 /// Filters the light of rare bright rays, without regard to differences of light, and adds it to
@@ -91,6 +95,8 @@ void keep_coats(const KeptBand& band, const GBuffer& surfaces, const CoatLight& 
   parallel_chunks(surfaces.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t pixel = band.first + i;
+      coats.albedo[pixel] = vec3(0.0f);
+      if (surfaces.skips(i)) continue;
       const vec4 light = by_rays.empty() ? vec4(0.0f) : by_rays.light[i];
       coats.light[pixel] = coats.excess[pixel] = vec3(0.0f);
       coats.alphas[pixel] = 0.0f;
@@ -124,6 +130,8 @@ void keep_mirrored(const KeptBand& band, const CameraRecord& camera, std::size_t
   parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t pixel = band.first + i;
+      coats.albedo[pixel] = vec3(0.0f);
+      if (gbuffer.skips(i)) continue;
       coats.light[pixel] = coats.excess[pixel] = vec3(0.0f);
       coats.alphas[pixel] = 0.0f;
       kept.mirrored_depths[pixel] = 0.0f;
@@ -150,16 +158,13 @@ void keep_all_coats(const KeptBand& band, std::size_t pixels, FilteredPixels& ke
   kept.clearcoats.resize(light.filters_clearcoats ? pixels : 0);
   kept.clearcoats.normals_ws.resize(kept.clearcoats.light.size());
   if (light.coats == nullptr) return;
-  kept.to_viewer_ws.resize(pixels);
-  std::copy_n(gbuffer.to_viewer_ws.begin(), gbuffer.size(), &kept.to_viewer_ws[band.first]);
+  keep(gbuffer, gbuffer.to_viewer_ws, band.first, pixels, kept.to_viewer_ws);
   keep_coats(band, gbuffer, *light.coats, 0.0f, kept.coats);
   if (light.clearcoats != nullptr) {
     keep_coats(band, light.clearcoats->surfaces, light.clearcoats->rays, kFoundByRaysAlpha,
                kept.clearcoats);
   } else if (light.filters_clearcoats) {
-    std::fill_n(&kept.clearcoats.light[band.first], gbuffer.size(), vec3(0.0f));
-    std::fill_n(&kept.clearcoats.excess[band.first], gbuffer.size(), vec3(0.0f));
-    std::fill_n(&kept.clearcoats.alphas[band.first], gbuffer.size(), 0.0f);
+    keep_coats(band, gbuffer, {}, kFoundByRaysAlpha, kept.clearcoats);
   }
 }
 
@@ -188,8 +193,9 @@ void keep_highlights(const BandToFilter& light, std::size_t first, std::size_t c
   parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t pixel = first + i;
-      pixels.highlights[pixel] = vec3(0.0f);
       pixels.highlight_albedo[pixel] = vec3(0.0f);
+      if (gbuffer.skips(i)) continue;
+      pixels.highlights[pixel] = vec3(0.0f);
       pixels.highlight_alphas[pixel] = 0.0f;
       if (gbuffer.hit[i] == 0) continue;
       const Reflectance& reflectance = gbuffer.surfaces[i].reflectance;
@@ -261,11 +267,8 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
   const CameraRecord camera = camera_record(request.camera, 1, 1);
   keep_all_coats({light, first}, count, pixels);
   keep_mirrored({light, first}, camera, filters_mirrored_coats(request) ? count : 0, pixels);
-  if (emitters) {
-    keep_highlights(light, first, count, pixels);
-  } else {
-    pixels.highlights.clear();
-  }
+  if (emitters) keep_highlights(light, first, count, pixels);
+  if (!emitters) pixels.highlights.clear();
   if (light.transmitted != nullptr) {
     keep_through({gbuffer, *light.transmitted, light.fog, first}, pixels.through);
   } else {
@@ -285,18 +288,22 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
   pixels.emitter_levels.resize(emitters ? count : 0);
   pixels.indirect_albedo.resize(gathered ? count : 0);
   pixels.received_weight.resize(gathered ? count : 0);
-  using Colors = std::span<const vec3>;
-  using Floats = std::span<const float>;
-  keep(Floats(light.direct.emitter_variance), first, count, pixels.emitter_variance);
-  keep(gathered ? Colors(light.gathered->irradiance) : Colors(), first, count, pixels.gathered);
-  keep(gathered ? Colors(light.gathered->excess) : Colors(), first, count, pixels.excess);
-  keep(gathered ? Floats(light.gathered->variance) : Floats(), first, count,
-       pixels.gathered_variance);
-  keep(gathered ? Colors(*light.looked_up) : Colors(), first, count, pixels.looked_up);
-
+  const GatheredLight none;
+  const GatheredLight& found = gathered ? *light.gathered : none;
+  const std::vector<vec3>& looked_up = gathered ? *light.looked_up : none.irradiance;
+  keep(gbuffer, light.direct.emitter_variance, first, count, pixels.emitter_variance);
+  keep(gbuffer, found.irradiance, first, count, pixels.gathered);
+  keep(gbuffer, found.excess, first, count, pixels.excess);
+  keep(gbuffer, found.variance, first, count, pixels.gathered_variance);
+  keep(gbuffer, looked_up, first, count, pixels.looked_up);
   parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t pixel = first + i;
+      if (gbuffer.skips(i)) {
+        if (emitters) pixels.emitter_albedo[pixel] = vec3(0.0f);
+        if (gathered) pixels.received_weight[pixel] = 0.0f;
+        continue;
+      }
       const bool seen = gbuffer.hit[i] != 0;
       const Surface surface = seen ? gbuffer.surfaces[i] : Surface{};
       pixels.positions_ws[pixel] = surface.position_ws;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "compose/adaptive/further_samples.h"
 #include "compose/check_frame.h"
 #include "compose/frame_passes.h"
 #include "compose/history/moved_parts.h"
@@ -23,37 +24,62 @@ std::unique_ptr<FramePasses> make_frame_passes(const World& world) {
   return make_frame_passes_cpu();
 }
 
-void run_passes(const FrameRequest& request, bool makes_maps, const ProgressFn& progress,
+/// Takes one of `settings.samples` samples of the pixels, all of which count the same in the end.
+void run_sample(const FrameRequest& request, int sample, const ProgressFn& progress,
                 FramePasses& passes) {
   const FrameSettings& settings = request.settings;
   const IndirectSources& sources = request.sources;
   const Band all = traced_rows(request);
   const float share = 1.0f / static_cast<float>(settings.samples);
   const int band_rows = rows_of_a_band(settings.width);
+  for (int row = 0; row < all.rows; row += band_rows) {
+    const Band band{all.first_row + row, std::min(band_rows, all.rows - row)};
+    passes.gbuffer(band, sample);
+    if (wants_motion(settings) && request.round.skipped.empty()) passes.motion();
+    passes.direct();
+    if (asks_lights_in_sub_images(request)) passes.rsm_direct();
+    if (looks_up(request)) passes.indirect();
+    if (gathers(request)) passes.gather();
+    if (sources.field != nullptr) passes.glossy();
+    if (tracer_of(request.world).has_glass()) passes.transmission();
+    if (sources.rsm) passes.rsm_upsample();
+    if (has_fog(request)) passes.fog();
+    passes.compose(share);
+    if (progress) progress("frame", static_cast<double>(row + band.rows) / all.rows);
+  }
+  if (settings.denoise) passes.denoise(share);
+}
 
+// Cost of a further sample, of few pixels with fewer rays, over that of one of the first.
+constexpr double kFurtherCost = 0.1;
+
+/// How far a frame has come, from the share done of one of its samples.
+ProgressFn progress_of_sample(const FrameSettings& settings, int sample,
+                              const ProgressFn& progress) {
+  if (!progress) return {};
+  const int first = settings.samples, further = std::max(settings.most_samples - first, 0);
+  const bool is_further = sample >= first;
+  const double cost = is_further ? kFurtherCost : 1.0;
+  const double before = std::min(sample, first) + kFurtherCost * std::max(sample - first, 0);
+  return [=, &progress](std::string_view stage, double done) {
+    progress(stage, (before + cost * done) / (first + kFurtherCost * further));
+  };
+}
+
+void run_passes(const FrameRequest& request, bool makes_maps, const ProgressFn& progress,
+                FramePasses& passes) {
+  const FrameSettings& settings = request.settings;
   if (makes_maps) passes.rsm();
   if (has_fog(request)) passes.light_fog();
-  for (int sample = 0; sample < settings.samples; ++sample) {
-    for (int row = 0; row < all.rows; row += band_rows) {
-      const Band band{all.first_row + row, std::min(band_rows, all.rows - row)};
-      passes.gbuffer(band, sample);
-      if (wants_motion(settings)) passes.motion();
-      passes.direct();
-      if (asks_lights_in_sub_images(request)) passes.rsm_direct();
-      if (looks_up(request)) passes.indirect();
-      if (gathers(request)) passes.gather();
-      if (sources.field != nullptr) passes.glossy();
-      if (tracer_of(request.world).has_glass()) passes.transmission();
-      if (sources.rsm) passes.rsm_upsample();
-      if (has_fog(request)) passes.fog();
-      passes.compose(share);
-      if (progress) {
-        const double band_share = static_cast<double>(row + band.rows) / all.rows;
-        progress("frame", (sample + band_share) / settings.samples);
-      }
+  FurtherSamples further(request, passes);
+  const auto run = [&](const FrameRequest& round, int first) {
+    for (int sample = first; sample < round.settings.samples; ++sample) {
+      run_sample(round, sample, progress_of_sample(settings, sample, progress), passes);
+      further.note_sample();
     }
-    if (settings.denoise) passes.denoise(share);
-  }
+  };
+  run(request, 0);
+  while (const FrameRequest* round = further.next_round()) run(*round, round->round.first);
   if (settings.temporal_antialiasing) passes.antialias();
 }
 

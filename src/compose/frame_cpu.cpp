@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "compose/adaptive/layers_so_far.h"
 #include "compose/filter_frame.h"
 #include "compose/fog/fog_frame.h"
 #include "compose/frame_passes.h"
@@ -13,6 +14,7 @@
 #include "compose/motion.h"
 #include "compose/pixel_math.h"
 #include "compose/rsm/rsm_frame.h"
+#include "core/image/exposure.h"
 #include "core/parallel.h"
 #include "core/pass_times.h"
 #include "field/field_access.h"
@@ -166,12 +168,11 @@ class FramePassesCpu final : public FramePasses {
   void gbuffer(const Band& band, int sample) override {
     band_ = band;
     sample_ = sample;
-    trace_gbuffer(request().world, request().camera, request().settings, band, sample, gbuffer_,
-                  request().jitter());
+    now_->frame.rays += trace_gbuffer(request().world, request().camera, request().settings, band,
+                                      sample, gbuffer_, request().jitter(), request().round);
     gbuffer_.coat_shares.clear();
     if (traces_coats(request())) find_coat_shares(gbuffer_);
     light_.transmitted.clear();
-    now_->frame.rays += gbuffer_.size();
     finish_pass("gbuffer");
   }
 
@@ -246,8 +247,7 @@ class FramePassesCpu final : public FramePasses {
     KeptBehind kept;
     if (filters_through(request())) {
       kept = {&to_filter_.through, first_pixel()};
-      if (first_pixel() == 0)
-        to_filter_.through.start(traced_pixels(request()), request().settings);
+      kept.seen->start(traced_pixels(request()), gbuffer_, kept.first, request().settings);
     }
     now_->frame.rays +=
         look_through_band(request(), band_, sample_, gbuffer_, kept, glossy_, light_.transmitted);
@@ -315,6 +315,17 @@ class FramePassesCpu final : public FramePasses {
     finish_pass("denoise");
   }
 
+  void read_luminances(std::vector<float>& luminances) override {
+    lambent::read_luminances(now_->frame.image, luminances);
+  }
+
+  float exposure() override { return display_stops(now_->frame.image); }
+
+  void refine(const FrameRequest& request, float kept) override {
+    now_->request = &request;
+    scale_layers(request.round.skipped, kept, now_->frame.image);
+  }
+
   void antialias() override {
     antialiasing_.resolve(request().sequence->frame(), motion_, *now_->frame.image.find(""));
     finish_pass("taa");
@@ -340,15 +351,15 @@ class FramePassesCpu final : public FramePasses {
   /// The frame being rendered.
   struct Now {
     Now(const FrameRequest& asked, RenderedFrame& made)
-        : request(asked), frame(made), timer(made.passes), layers(made.image) {}
-    const FrameRequest& request;
+        : request(&asked), frame(made), timer(made.passes), layers(made.image) {}
+    const FrameRequest* request;
     RenderedFrame& frame;
     PassTimer timer;
     Layers layers;
     bool made_maps = false;
   };
 
-  const FrameRequest& request() const { return now_->request; }
+  const FrameRequest& request() const { return *now_->request; }
   int drawn_sample() const { return request().drawn(sample_); }
   /// First pixel of the band among the traced pixels.
   std::size_t first_pixel() const {

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "compose/gbuffer.h"
 #include "field/correction/correction_use.h"
@@ -28,6 +30,7 @@ struct FrameRequest {
   const MovedParts* moved = nullptr;      ///< Where it has changed by these parts alone; else null.
   std::uint32_t first_sample = 0;         ///< Index of the frame's first sample among all samples.
   const TaaSequence* sequence = nullptr;  ///< Null: no temporal anti-aliasing.
+  SampleRound round = {};
 
   /// Index of a sample among those of all frames, so that each frame draws other random numbers.
   int drawn(int sample) const { return sample + static_cast<int>(first_sample); }
@@ -130,6 +133,13 @@ class FramePasses {
   virtual void compose(float share) = 0;
   /// After all bands of a sample: filters the stored light and adds it to the layers.
   virtual void denoise(float share) = 0;
+  /// After all bands of a sample: the luminances of the picture's pixels so far, row after row.
+  virtual void read_luminances(std::vector<float>& luminances) = 0;
+  /// After all bands of a sample: the exposure of the picture so far [stops].
+  virtual float exposure() = 0;
+  /// After all bands of a sample: goes on with another request for the same picture, which must
+  /// live until `finish`. Multiplies the layers of the pixels that it does not skip by `kept`.
+  virtual void refine(const FrameRequest& request, float kept) = 0;
   /// After all bands: temporal anti-aliasing of the whole picture, for frames that ask for it.
   virtual void antialias() = 0;
   /// After all bands: completes the frame's layers, rays and times.

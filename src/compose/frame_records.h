@@ -38,8 +38,9 @@ struct CameraRaysArguments {
   uint index;        ///< Index of the sample, below `samples`.
   uint samples;
   uint seed;
-  uint jitter;  ///< See subpixel_position().
-  uint padding;
+  uint jitter;        ///< See subpixel_position().
+  uint round_first;   ///< See SampleRound.
+  UintArray skipped;  ///< Of the picture's pixels, see SampleRound; read where `round_first` > 0.
 };
 
 /// Writes the pixels' field queries.
@@ -105,6 +106,22 @@ struct ComposeArguments {
   uint first;  ///< First of the shown pixels among the band's.
   uint has;    ///< kHasCoats, ...
   uint padding;
+};
+
+/// Computes the luminances of a picture's pixels.
+struct LuminancesArguments {
+  PixelLayersArray layers;
+  FloatArray luminances;
+  uint count;
+  uint padding;
+};
+
+/// Multiplies the layers of a picture's pixels, but for skipped ones, see SampleRound.
+struct ScaleLayersArguments {
+  PixelLayersArray layers;
+  UintArray skipped;
+  uint count;
+  float scale;
 };
 
 LAMBENT_END

@@ -119,7 +119,8 @@ void FramePassesVulkan::gbuffer(const Band& band, int sample) {
                       static_cast<uint>(s.samples),
                       s.seed,
                       request_->jitter(),
-                      0u});
+                      static_cast<uint>(request_->round.first),
+                      {memory_.skipped.address()}});
   });
 }
 

@@ -45,11 +45,13 @@
 #include "shaders/keep_mirrored_comp.h"
 #include "shaders/keep_pixels_comp.h"
 #include "shaders/keep_through_comp.h"
+#include "shaders/luminances_comp.h"
 #include "shaders/motion_comp.h"
 #include "shaders/motion_rays_comp.h"
 #include "shaders/pixel_queries_comp.h"
 #include "shaders/ray_queries_comp.h"
 #include "shaders/replace_light_comp.h"
+#include "shaders/scale_layers_comp.h"
 #include "shaders/secondary_light_comp.h"
 #include "shaders/secondary_rays_comp.h"
 #include "shaders/seen_distances_comp.h"
@@ -106,6 +108,8 @@ struct FrameKernels {
   vulkan::Kernel keep_mirrored{device, shaders::keep_mirrored_comp(), "keep coats in mirrors"};
   vulkan::Kernel keep_clearcoats{device, shaders::keep_clearcoats_comp(), "keep clearcoats"};
   vulkan::Kernel add_filtered{device, shaders::add_filtered_comp(), "add filtered"};
+  vulkan::Kernel luminances{device, shaders::luminances_comp(), "luminances"};
+  vulkan::Kernel scale_layers{device, shaders::scale_layers_comp(), "scale layers"};
 };
 
 /// Light that is filtered, of the traced rows: 392 bytes a pixel, and 96 more where mirrors may
@@ -205,7 +209,7 @@ struct FrameMemory {
   FroxelFog fog;
   vulkan::Buffer media, froxels, fog_record, pixel_fog;
   // One entry for each pixel of the picture
-  vulkan::Buffer layers, picture_motion;
+  vulkan::Buffer layers, picture_motion, luminances, skipped;
 };
 
 class FramePassesVulkan final : public FramePasses {
@@ -227,6 +231,9 @@ class FramePassesVulkan final : public FramePasses {
   void fog() override;
   void compose(float share) override;
   void denoise(float share) override;
+  void read_luminances(std::vector<float>& luminances) override;
+  float exposure() override;
+  void refine(const FrameRequest& request, float kept) override;
   void antialias() override;
   void finish() override;
 

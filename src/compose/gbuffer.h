@@ -41,14 +41,26 @@ struct ShownPixels {
 };
 ShownPixels shown_pixels(const Band& band, const FrameSettings& settings);
 
+/// The samples that are taken together, of all pixels or of some: from `first` on to
+/// FrameSettings::samples. They are stratified apart from those before.
+struct SampleRound {
+  int first = 0;
+  /// 1 for each pixel of the picture that takes none; empty: all take them.
+  std::span<const std::uint8_t> skipped = {};
+};
+
 struct GBuffer {
   std::vector<Hit> hits;
   std::vector<Surface> surfaces;        ///< Undefined where `hit` is 0.
   std::vector<std::uint8_t> hit;        ///< 1 where the camera sees a surface.
   std::vector<glm::vec3> to_viewer_ws;  ///< Unit; back along the primary ray.
   std::vector<CoatShares> coat_shares;  ///< Empty: coats have no rays of their own.
+  /// 1 where the pixel has no sample: it then shows nothing, with a weight of 0. Empty: all have
+  /// one.
+  std::span<const std::uint8_t> skipped;
 
   std::size_t size() const { return hit.size(); }
+  bool skips(std::size_t pixel) const { return !skipped.empty() && skipped[pixel] != 0; }
 };
 
 /// Weight of a pixel's sample times the transmittance of the fog before it; `fog` is that of the
@@ -63,9 +75,10 @@ inline float shown_weight(const GBuffer& gbuffer, std::span<const glm::vec4> fog
 glm::vec2 sample_position(const FrameSettings& settings, int x, int y, int sample, uint jitter);
 
 /// Traces one primary ray a pixel: through its centre where the frame takes one sample, otherwise
-/// at a different point of the pixel for each sample.
-void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings& settings,
-                   const Band& band, int sample, GBuffer& gbuffer, uint jitter = 0);
+/// at a different point of the pixel for each sample. Returns the number of rays traced.
+std::uint64_t trace_gbuffer(const World& world, const Camera& camera, const FrameSettings& settings,
+                            const Band& band, int sample, GBuffer& gbuffer, uint jitter = 0,
+                            const SampleRound& round = {});
 
 /// Direct light that the pixels' surfaces reflect to the camera, diffuse and specular apart
 /// [W/(m^2 sr)].

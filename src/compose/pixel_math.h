@@ -27,6 +27,12 @@ LAMBENT_FN vec2 subpixel_position(uint index, uint samples, uint seed) {
   return fract(shift + plastic_sequence(index));
 }
 
+/// The seed of the order in which the samples of a pixel from `first` on end at surfaces that are
+/// see-through; see FrameRequest::round.
+LAMBENT_FN uint round_seed(uint seed, uint first) {
+  return first == 0u ? seed : hash_pcg(seed + first);
+}
+
 /// The number of a sample among all that its pixel has had. Under temporal anti-aliasing, numbers
 /// continue from frame to frame: `jitter` is 1 + the number of previous frames. 0: each frame
 /// counts from 0.

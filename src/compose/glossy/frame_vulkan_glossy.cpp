@@ -89,7 +89,8 @@ void FramePassesVulkan::see_around_band(const Band& around) {
           static_cast<uint>(settings.samples),
           settings.seed,
           request_->jitter(),
-          0u};
+          static_cast<uint>(request_->round.first),
+          {m.skipped.address()}};
       const HitArray hits{m.path_hits.address() + first * sizeof(HitRecord)};
       to.run(kernels_.camera_rays, arguments, count);
       to.barrier();

@@ -135,8 +135,10 @@ void FramePassesVulkan::begin_through(std::size_t pixels) {
 
 void FramePassesVulkan::start_through() {
   add("transmission", [this](Recorder& to) {
-    const StartThroughArguments arguments = {
-        {memory_.through.addresses.address()}, first_traced_pixel(), pixels_};
+    const StartThroughArguments arguments = {{memory_.through.addresses.address()},
+                                             {memory_.surfaces.address()},
+                                             first_traced_pixel(),
+                                             pixels_};
     to.run(kernels_.start_through, arguments, pixels_);
   });
 }

@@ -315,10 +315,10 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
   const Band below{end_row, std::min(halo, settings.height - end_row)};
   std::uint64_t traced = 0;
   const auto see = [&](const Band& rows, GBuffer& seen) {
-    trace_gbuffer(request.world, request.camera, settings, rows, sample, seen, request.jitter());
+    traced += trace_gbuffer(request.world, request.camera, settings, rows, sample, seen,
+                            request.jitter(), request.round);
     if (kind == CoatKind::clearcoat) show_clearcoats(seen);
     find_coat_shares(seen);
-    traced += seen.size();
   };
   see(above, memory.above);
   see(below, memory.below);

@@ -75,26 +75,31 @@ void filter_behind(const DenoiseView& view, Denoiser& denoiser, SeenThrough& see
 
 }  // namespace
 
-void SeenThrough::start(std::size_t pixels, const FrameSettings& settings) {
+void SeenThrough::start(std::size_t pixels, const GBuffer& gbuffer, std::size_t first,
+                        const FrameSettings& settings) {
+  for (std::vector<vec3>* vectors :
+       {&positions_ws, &normals_ws, &emitters, &emitter_albedo, &coats, &coat_albedo,
+        &coat_to_viewer_ws, &light, &albedo, &away_normals_ws, &to_viewer_ws}) {
+    vectors->resize(pixels);
+  }
+  for (std::vector<float>* numbers :
+       {&depths, &emitter_levels, &coat_alphas, &coat_distances, &alphas, &distances}) {
+    numbers->resize(pixels);
+  }
   const bool has_variance = settings.reflected_emissive_samples > 1;
-  depths.assign(pixels, 0.0f);
-  positions_ws.resize(pixels);
-  normals_ws.resize(pixels);
-  emitters.assign(pixels, vec3(0.0f));
-  emitter_variance.assign(has_variance ? pixels : 0, 0.0f);
-  emitter_levels.assign(pixels, 0.0f);
-  emitter_albedo.assign(pixels, vec3(0.0f));
-  coats.assign(pixels, vec3(0.0f));
-  coat_albedo.assign(pixels, vec3(0.0f));
-  coat_to_viewer_ws.resize(pixels);
-  coat_alphas.assign(pixels, 0.0f);
-  coat_distances.assign(pixels, -1.0f);
-  light.assign(pixels, vec3(0.0f));
-  albedo.assign(pixels, vec3(0.0f));
-  away_normals_ws.resize(pixels);
-  to_viewer_ws.resize(pixels);
-  alphas.assign(pixels, 0.0f);
-  distances.assign(pixels, -1.0f);
+  emitter_variance.resize(has_variance ? pixels : 0);
+  parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t pixel = first + i;
+      // What is behind a pixel was added to its light when it was filtered
+      emitter_albedo[pixel] = coat_albedo[pixel] = albedo[pixel] = vec3(0.0f);
+      if (gbuffer.skips(i)) continue;
+      depths[pixel] = emitter_levels[pixel] = coat_alphas[pixel] = alphas[pixel] = 0.0f;
+      emitters[pixel] = coats[pixel] = light[pixel] = vec3(0.0f);
+      if (has_variance) emitter_variance[pixel] = 0.0f;
+      coat_distances[pixel] = distances[pixel] = -1.0f;
+    }
+  });
 }
 
 void SeenThrough::clear() {

@@ -54,8 +54,10 @@ struct SeenThrough {
   std::vector<float> inverse_distances, coat_inverse_distances;  ///< See seen_inverse_distance().
   std::vector<glm::vec3> filtered_emitters, filtered_coats, filtered;
 
-  /// Makes room for the rows' pixels, none of which shows transmitted light yet.
-  void start(std::size_t pixels, const FrameSettings& settings);
+  /// Makes room for the traced rows' pixels. Those of a band, from index `first` on, show no
+  /// transmitted light yet; those that it skips keep theirs for their neighbours, and add none.
+  void start(std::size_t pixels, const GBuffer& gbuffer, std::size_t first,
+             const FrameSettings& settings);
   /// Empties all arrays, for scenes without transmission.
   void clear();
 };

@@ -31,9 +31,10 @@ struct SeenThroughRecord {
 };
 LAMBENT_DEVICE_ARRAY(SeenThroughArray, SeenThroughRecord, 8)
 
-/// Resets a band's pixels to no transmitted light.
+/// Prepares a band's pixels for a sample of transmitted light.
 struct StartThroughArguments {
   SeenThroughArray seen;
+  PixelSurfaceArray surfaces;
   uint first;  ///< First pixel of the band among the traced ones.
   uint count;
 };

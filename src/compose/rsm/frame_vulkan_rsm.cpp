@@ -50,7 +50,8 @@ void FramePassesVulkan::trace_small_view(int width, int height) {
                         1u,
                         request_->settings.seed,
                         0u,
-                        0u});
+                        0u,
+                        {}});
     });
     add_geometry("rsm.view", small_, first, count);
     if (!by.direct) continue;

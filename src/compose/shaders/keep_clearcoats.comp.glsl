@@ -14,10 +14,11 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
   uint pixel = args.first + i;
+  PixelSurfaceRecord coat = args.surfaces.at[i];
+  if ((coat.flags & kSurfaceSkipped) != 0u) return;
   args.pixels.at[0].clearcoats.at[pixel] = vec3(0.0f);
   args.pixels.at[0].clearcoat_excess.at[pixel] = vec3(0.0f);
   args.pixels.at[0].clearcoat_lobes.at[pixel].sharpness = 0.0f;
-  PixelSurfaceRecord coat = args.surfaces.at[i];
   if ((coat.flags & kSurfaceMissed) != 0u || args.has_rays == 0u) return;
   vec4 by_rays = args.coats.at[i];
   if (by_rays.w <= 0.0f || !is_filtered_clearcoat(coat.reflectance.alpha)) return;

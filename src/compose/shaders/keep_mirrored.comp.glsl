@@ -14,10 +14,14 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
   uint pixel = args.first + i;
+  PixelSurfaceRecord surface = args.surfaces.at[i];
+  if ((surface.flags & kSurfaceSkipped) != 0u) {
+    args.pixels.at[0].mirrored_albedo.at[pixel] = vec3(0.0f);
+    return;
+  }
   args.pixels.at[0].mirrored.at[pixel] = vec3(0.0f);
   args.pixels.at[0].mirrored_depths.at[pixel] = 0.0f;
   args.pixels.at[0].mirrored_lobes.at[pixel].sharpness = 0.0f;
-  PixelSurfaceRecord surface = args.surfaces.at[i];
   MirroredCoat coat = args.mirrored.at[i];
   if ((surface.flags & kSurfaceMissed) != 0u || coat.alpha <= 0.0f) return;
   float passed = args.has_fog != 0u ? args.fog.at[i].w : 1.0f;

@@ -58,12 +58,30 @@ void keep_highlight(uint i, uint pixel, LitPointRecord point, PixelSurfaceRecord
   args.pixels.at[0].highlight_albedo.at[pixel] = weight * albedo;
 }
 
+/// Keeps what is stored of a pixel without a sample for its neighbours, and shows none of it.
+void skip(uint pixel) {
+  if ((args.has & kIsFiltered) != 0u) args.pixels.at[0].received_weight.at[pixel] = 0.0f;
+  if ((args.has & kCoatsAreFiltered) != 0u) {
+    args.pixels.at[0].coat_albedo.at[pixel] = vec3(0.0f);
+  }
+  if ((args.has & kClearcoatsAreFiltered) != 0u) {
+    args.pixels.at[0].clearcoat_albedo.at[pixel] = vec3(0.0f);
+  }
+  if (args.draws == 0u) return;
+  args.pixels.at[0].emitter_albedo.at[pixel] = vec3(0.0f);
+  args.pixels.at[0].highlight_albedo.at[pixel] = vec3(0.0f);
+}
+
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
   uint pixel = args.first + i;
   LitPointRecord point = args.points.at[i];
   PixelSurfaceRecord surface = args.surfaces.at[i];
+  if ((surface.flags & kSurfaceSkipped) != 0u) {
+    skip(pixel);
+    return;
+  }
   bool seen = (surface.flags & kSurfaceMissed) == 0u;
   float depth = -dot(point.position_ws - args.camera_ws, args.camera_back);
   args.pixels.at[0].positions_ws.at[pixel] = point.position_ws;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Resets a band's pixels to no transmitted light.
+// Prepares a band's pixels for a sample of transmitted light; see SeenThrough::start().
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/glossy/seen_through_records.h"
@@ -13,17 +13,18 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
   uint pixel = args.first + i;
+  args.seen.at[0].emitter_albedo.at[pixel] = vec3(0.0f);
+  args.seen.at[0].coat_albedo.at[pixel] = vec3(0.0f);
+  args.seen.at[0].albedo.at[pixel] = vec3(0.0f);
+  if ((args.surfaces.at[i].flags & kSurfaceSkipped) != 0u) return;
   args.seen.at[0].depths.at[pixel] = 0.0f;
   args.seen.at[0].emitters.at[pixel] = vec3(0.0f);
   args.seen.at[0].emitter_variance.at[pixel] = 0.0f;
   args.seen.at[0].emitter_levels.at[pixel] = 0.0f;
-  args.seen.at[0].emitter_albedo.at[pixel] = vec3(0.0f);
   args.seen.at[0].coats.at[pixel] = vec3(0.0f);
-  args.seen.at[0].coat_albedo.at[pixel] = vec3(0.0f);
   args.seen.at[0].coat_lobes.at[pixel].sharpness = 0.0f;
   args.seen.at[0].coat_distances.at[pixel] = -1.0f;
   args.seen.at[0].distances.at[pixel] = -1.0f;
   args.seen.at[0].light.at[pixel] = vec3(0.0f);
-  args.seen.at[0].albedo.at[pixel] = vec3(0.0f);
   args.seen.at[0].lobes.at[pixel].sharpness = 0.0f;
 }

@@ -18,6 +18,7 @@ void main() {
   uint k = gl_GlobalInvocationID.x;
   if (k >= args.count) return;
   uint i = args.first + k;
+  if ((args.surfaces.at[i].flags & kSurfaceSkipped) != 0u) return;
   LitPointRecord point = args.points.at[i];
   float above = above_horizon(args.surfaces.at[i].gi_share,
                               dot(point.normal_ws, point.geometric_normal_ws));

@@ -23,7 +23,10 @@ void main() {
       lambert_reflectance(vec3(0.0f)), vec3(0.0f), -ray.direction_ws, no_transmission(),
       RayCone(0.0f, 0.0f), kSurfaceMissed, 0.0f, CoatShares(0.0f, 0.0f), hit.sample_weight,
       0.0f, 0.0f);
-  if (missed(hit)) {
+  if (ray.mask == 0u) {
+    pixel.flags |= kSurfaceSkipped;
+    pixel.sample_weight = 0.0f;
+  } else if (missed(hit)) {
     pixel.cone = args.cones.at[i];
     pixel.emission = sky_radiance_in_cone(args.scene.at[0].environment, ray.direction_ws,
                                           args.cones.at[i].spread);

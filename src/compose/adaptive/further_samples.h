@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Further samples of the pixels whose samples differ visibly.
+//
+// After FrameSettings::samples samples of all pixels, those whose mean has a visible error double
+// theirs, round by round. Each round's samples are stratified as if there were no others, so that
+// the mean of each, and that of all, is unbiased.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "compose/adaptive/pixel_noise.h"
+#include "compose/frame_passes.h"
+
+namespace lambent {
+
+class FurtherSamples {
+ public:
+  /// Both must outlive this.
+  FurtherSamples(const FrameRequest& request, FramePasses& passes);
+
+  /// To be called after each sample.
+  void note_sample();
+  /// Starts a round. Returns its request, whose settings have twice the samples of the last one:
+  /// the second half of these are to be taken. Null where no pixel needs any.
+  const FrameRequest* next_round();
+
+ private:
+  const FrameRequest& request_;
+  FramePasses& passes_;
+  std::vector<std::uint8_t> skipped_;  // see FrameRequest
+  std::vector<float> luminances_;      // scratch memory
+  std::optional<PixelNoise> noise_;    // none where pixels take no further samples
+  float stops_ = 0.0f;                 // exposure of the picture by the first samples
+  FrameSettings settings_;             // of the present round
+  std::optional<FrameRequest> round_;  // none before the first one
+};
+
+}  // namespace lambent

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much the samples of pixels differ, as a display shows them, and which pixels need more.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lambent {
+
+/// The samples of a picture's pixels. They are added one after the other; some pixels may have more
+/// of them than others.
+class PixelNoise {
+ public:
+  /// Starts a picture.
+  PixelNoise(std::size_t width, std::size_t height);
+
+  /// Adds a sample of each pixel that is not skipped. `luminances`: of the picture so far, in which
+  /// the sample counts `share`. `skipped`: 1 for each pixel without a sample; empty: all have one.
+  void add(std::span<const float> luminances, float share, std::span<const std::uint8_t> skipped);
+  /// The picture of pixels that are not skipped was multiplied by `kept`.
+  void scale(float kept, std::span<const std::uint8_t> skipped);
+
+  /// Chooses, among the pixels that are not skipped, those whose mean of samples, as a display
+  /// shows it, differs from a neighbour's by more than kVisibleError, and has a standard error
+  /// above it, or has a neighbour that has. Samples of a pixel may agree by chance: if its own
+  /// decided alone, what is rare would be lost. Marks all others as skipped. `skipped` has an entry
+  /// for each pixel. `stops`: the picture's exposure. Returns how many are chosen.
+  std::size_t choose(float stops, std::span<std::uint8_t> skipped);
+
+ private:
+  void count_pending(float middle);
+  bool is_noisy(std::size_t pixel) const;
+  float mean(std::size_t pixel) const {
+    return sums_[pixel].sum / static_cast<float>(sums_[pixel].count);
+  }
+
+  /// Of the samples of a pixel as a display shows them.
+  struct Sums {
+    float sum = 0.0f, squares = 0.0f;
+    std::uint32_t count = 0;
+  };
+  std::size_t width_;
+  std::vector<Sums> sums_;
+  std::vector<float> last_;  // luminances of the picture so far
+  /// Samples since the last call of `choose`, one picture after the other; below 0: none.
+  std::vector<std::vector<float>> pending_;
+};
+
+}  // namespace lambent
