@@ -96,8 +96,7 @@ TEST_F(QualityOption, RefusesWhatDoesNotGoTogether) {
       {"--most-samples 0", "--most-samples"},
       {"--samples 8 --most-samples 4", "--most-samples"},
       {"--quality interactive --most-samples 4", "--most-samples"},
-      {"--frames 2 --most-samples 4", "--most-samples"},
-      {"--method reference --most-samples 4", "--most-samples"}};
+      {"--frames 2 --most-samples 4", "--most-samples"}};
   for (const auto& [options, named] : cases) {
     const test::ProgramResult result =
         run_program("render " + kQuick + options + " -o " + directory.file("a.exr"));

@@ -204,6 +204,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadUse{"device_without_vulkan", "cornell --device 0", "--device"},
         BadUse{"validation_without_vulkan", "cornell --vulkan-validation", "--vulkan-validation"},
         BadUse{"reference_on_vulkan", "cornell --backend vulkan --method reference", "--backend"},
+        BadUse{"reference_most_samples", "cornell --method reference --most-samples 4",
+               "--most-samples"},
         BadUse{"missing_scene", "nowhere.glb", "nowhere.glb"},
         BadUse{"scene_that_is_no_scene", "/dev/null", "/dev/null"},
         BadUse{"size_of_zero", "cornell --size 0x10", "--size"},

@@ -313,7 +313,7 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
         first_index,
         salt,
         path_seed_,
-        bounce,
+        pack_path_step(bounce, sample_, static_cast<uint>(request_->settings.samples)),
         static_cast<uint>(request_->settings.reflected_emissive_samples)};
     to.run(kernels_.coat_light, lit, paths);
   });

@@ -228,6 +228,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
     add_radiance(paths_.paths[i], light, rays_[i]);
   }
   const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);
+  const uint step = path_step(settings, bounce);
   std::atomic<std::uint64_t> going_on = 0;
   parallel_chunks(met_.size(), kCostlyPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     std::uint64_t going = 0;
@@ -238,10 +239,12 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
       add_direct_light(path, direct_.diffuse[i], specular_light(direct_, i), rays_[i]);
       const RandomStream random = make_random_stream(
           first_index + static_cast<uint>(i), coat_salt(salt_, bounce), ~settings.frame.seed);
+      const GlassChoice choice =
+          glass_choice(first_index + static_cast<uint>(i), step, settings.frame.seed);
       const NextRay next =
           go_on(surface.transmission, surface.reflectance, met_.coat_shares[i], surface.normal_ws,
                 surface.geometric_normal_ws, met_.to_viewer_ws[i],
-                reflected_density_scale(settings, surface), bounce, random, path);
+                reflected_density_scale(settings, surface), bounce, choice, random, path);
       if (path.pdf <= 0.0f) continue;
       paths_.next[i] = ray_from(surface, next);
       paths_.cones[i] = reflected_cone(paths_.cones[i], path.pdf);

@@ -25,6 +25,12 @@ inline float reflected_density_scale(const GlossySettings& settings, const Surfa
                                surface.position_ws);
 }
 
+/// See pack_path_step().
+inline uint path_step(const GlossySettings& settings, std::uint32_t bounce) {
+  return pack_path_step(bounce, static_cast<uint>(settings.sample),
+                        static_cast<uint>(settings.frame.samples));
+}
+
 /// The cone of a pixel's primary ray at its hit.
 inline RayCone pixel_cone(const GlossySettings& settings, const Surface& surface,
                           const vec3& to_viewer_ws) {

@@ -85,7 +85,7 @@ void Glossy::split_paths(const GlossySettings& settings, std::uint32_t bounce) {
       const Surface& surface = met_.surfaces[i];
       const float n_dot_v = dot(surface.normal_ws, met_.to_viewer_ws[i]);
       if (!forks(paths_.paths[i], surface.transmission, surface.reflectance,
-                 met_.coat_shares[i].coat, n_dot_v, bounce)) {
+                 met_.coat_shares[i].coat, n_dot_v, path_step(settings, bounce))) {
         continue;
       }
       const RandomStream random = make_random_stream(

@@ -29,9 +29,10 @@ void main() {
   args.coat_rays.at[i] = ray;
 
   RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
+  GlassChoice choice = glass_choice(args.first_index + i, args.path_step, args.seed);
   NextRay next = go_on(surface.transmission, surface.reflectance, shares, point.normal_ws,
                        point.geometric_normal_ws, surface.to_viewer_ws,
                        emitter_density_scale(args.emitter_samples, surface.fluence),
-                       args.bounce, random, path);
+                       bounce_of_step(args.path_step), choice, random, path);
   if (path.pdf > 0.0f) append_path(args.next, i, path, surface.cone, point, next);
 }

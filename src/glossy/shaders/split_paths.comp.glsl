@@ -18,7 +18,7 @@ void main() {
   LitPointRecord point = args.points.at[k];
   CoatPath path = args.paths.at[k];
   if (!forks(path, surface.transmission, surface.reflectance, surface.coat_shares.coat,
-             dot(point.normal_ws, surface.to_viewer_ws), args.bounce)) {
+             dot(point.normal_ws, surface.to_viewer_ws), args.path_step)) {
     return;
   }
   uint i = args.pixels.at[k];

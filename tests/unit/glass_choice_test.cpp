@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the paths of a pixel's samples choose between reflection and crossing at glass.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "glossy/path_math.h"
+
+namespace lambent::glass_choice_test {
+namespace {
+
+constexpr uint kSeed = 5;
+
+TEST(GlassChoice, OfSuccessiveSamplesLieInEqualParts) {
+  for (uint pixel = 0; pixel < 50; ++pixel) {
+    for (const uint bounce : {1u, 2u, 7u}) {
+      for (uint first = 0; first < 16; first += 4) {
+        std::set<int> parts;
+        for (uint i = first; i < first + 4; ++i) {
+          parts.insert(static_cast<int>(
+              4.0f * glass_choice(pixel, pack_path_step(bounce, i, 4), kSeed).number));
+        }
+        EXPECT_EQ(parts, (std::set<int>{0, 1, 2, 3})) << pixel << " " << bounce;
+      }
+    }
+  }
+}
+
+TEST(GlassChoice, IsAnotherOneOnEachBounce) {
+  int same = 0;
+  for (uint pixel = 0; pixel < 200; ++pixel) {
+    const auto part = [&](uint bounce) {
+      return static_cast<int>(4.0f *
+                              glass_choice(pixel, pack_path_step(bounce, 0, 4), kSeed).number);
+    };
+    if (part(1) == part(2)) ++same;
+  }
+  EXPECT_NEAR(same, 50, 20);
+}
+
+/// A smooth path at the glass that it is to pass next.
+CoatPath path_through_glass() {
+  return {vec3(1.0f), kNoLightSampling, 0.0f, kStageThroughGlass, kForksNowhere, 0.0f};
+}
+
+/// Sums, over samples of a pixel, of what paths carry on that are reflected and that cross.
+vec2 carried(Transmission through, uint samples) {
+  const Reflectance glass = coated_reflectance(vec3(1.0f), 0.0f, 0.0f, 1.0f, vec3(1.0f), 1.5f);
+  const vec3 normal(0.0f, 0.0f, 1.0f), to_viewer = normalize(vec3(0.3f, 0.0f, 1.0f));
+  vec2 sums(0.0f);
+  for (uint i = 0; i < samples; ++i) {
+    CoatPath path = path_through_glass();
+    const NextRay next = go_on(through, glass, {1.0f, 0.0f}, normal, normal, to_viewer, 0.0f, 2,
+                               glass_choice(9, pack_path_step(2, i, samples), kSeed),
+                               make_random_stream(9, i, kSeed), path);
+    const bool crosses = next.side < 0.0f || next.direction_ws.z < 0.0f;
+    (crosses ? sums.y : sums.x) += path.throughput.x / static_cast<float>(samples);
+  }
+  return sums;
+}
+
+// Four samples of a pixel carry all of the 4 % that glass reflects and all that it lets pass: they
+// are as dark or bright in the next pixel.
+TEST(GlassChoice, FourSamplesCarryWhatIsReflectedAndWhatPasses) {
+  constexpr float kReflected = 0.04f;
+  Transmission pane = no_transmission();
+  pane.tint = vec3(1.0f);
+  pane.alpha = 0.0f;
+  Transmission out_of_volume = pane;
+  out_of_volume.kind = kLeavesVolume;
+  out_of_volume.eta = 1.5f;
+  for (const Transmission& through : {pane, out_of_volume}) {
+    for (const uint samples : {4u, 16u}) {
+      const vec2 sums = carried(through, samples);
+      EXPECT_NEAR(sums.x, kReflected, 0.01f);
+      EXPECT_NEAR(sums.y, 1.0f - kReflected, 0.01f);
+    }
+  }
+}
+
+// With fewer samples chances are in proportion: none of them may show reflections alone.
+TEST(GlassChoice, OfFewSamplesIsInProportion) {
+  EXPECT_EQ(glass_choice(1, pack_path_step(2, 0, 2), kSeed).least_chance, 0.0f);
+  EXPECT_EQ(glass_choice(1, pack_path_step(2, 0, 4), kSeed).least_chance, kLeastGlassChance);
+}
+
+}  // namespace
+}  // namespace lambent::glass_choice_test
