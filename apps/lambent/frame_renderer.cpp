@@ -270,6 +270,7 @@ Expected<void> FrameRenderer::paint_to_file(const Camera& camera, const std::str
     const glm::ivec2 size = preview_of(size_, kLargePreviewSide);
     preview.width = size.x;
     preview.height = size.y;
+    preview.most_samples = 0;  // as the picture's parts have none
     if (const auto done = render(camera, preview, {}); !done) return done;
     stops = display_stops(frame_.image);
   }

@@ -23,8 +23,8 @@ constexpr std::uint64_t kMotionBytes = (5 + 2) * sizeof(float);
 // before.
 constexpr std::uint64_t kTaaBytes = sizeof(PixelMotion) + 2 * sizeof(TaaPixel);
 static_assert(kTaaBytes == 108, "FrameSettings::temporal_antialiasing says how much it is");
-// Luminances of a pixel's samples, and their sums, by which further ones are chosen.
-constexpr std::uint64_t kNoiseBytes = 45;
+// By which further samples of a pixel are chosen: sums of its samples, flags, and scratch memory.
+constexpr std::uint64_t kNoiseBytes = 22;
 // A picture that is written or compared, in addition to the frame: its display-encoded form, and a
 // copy.
 constexpr std::uint64_t kWritingBytes = 2 * kLayerBytes;
@@ -65,7 +65,6 @@ std::uint64_t bytes_a_pixel(const RenderOptions& options) {
   if (options.method != "reference") bytes += kFrameBytes;
   if (is_filtered(options)) bytes += kFilterBytes;
   if (options.frames > 0 && is_filtered(options)) bytes += kHistoryBytes;
-  if (frame_settings(options, glm::ivec2(1)).most_samples > 0) bytes += kNoiseBytes;
   if (keeps_motion(options)) bytes += kMotionBytes;
   if (uses_taa(options)) bytes += kTaaBytes;
   if (!options.scene.fog.empty() && options.method != "reference") {
@@ -83,6 +82,14 @@ std::uint64_t bytes_a_pixel(const RenderOptions& options) {
   return bytes;
 }
 
+/// Of a pixel of a picture that is rendered whole, for further samples.
+std::uint64_t noise_bytes(const RenderOptions& options) {
+  if (options.method == "reference") return 0;
+  const FrameSettings frame = frame_settings(options, glm::ivec2(1));
+  if (frame.most_samples == 0) return 0;
+  return kNoiseBytes + static_cast<std::uint64_t>(frame.samples) * sizeof(float);
+}
+
 std::string need(std::uint64_t bytes, std::uint64_t available) {
   return "needs about " + bytes_text(bytes) + " of memory, and " + bytes_text(available) +
          " are available";
@@ -92,7 +99,7 @@ std::string need(std::uint64_t bytes, std::uint64_t available) {
 
 std::uint64_t picture_bytes(const RenderOptions& options, const glm::ivec2& size) {
   if (!made_in_bands(options, size)) {
-    return kFixedBytes + pixels_of(size) * bytes_a_pixel(options);
+    return kFixedBytes + pixels_of(size) * (bytes_a_pixel(options) + noise_bytes(options));
   }
   const auto width = static_cast<std::uint64_t>(size.x);
   const auto rows = static_cast<std::uint64_t>(rows_of_a_band(options, size));

@@ -79,6 +79,7 @@ FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& siz
   if (options.samples > 0) frame.samples = options.samples;
   // Who names a number means that one
   if (options.samples > 0 || options.most_samples > 0) frame.most_samples = options.most_samples;
+  if (options.frames > 0) frame.most_samples = 0;
   // Gathering adds a bounce to those of the field, so it is off where the number of bounces is
   // limited
   if (options.method != "field" || options.bounces >= 0) frame.gather_rays = 0;
@@ -137,10 +138,10 @@ Expected<void> check_quality(const RenderOptions& options) {
       return fail("--most-samples", "", "goes with single pictures: frames are averaged over time");
     }
     const int samples = frame_settings(options, glm::ivec2(1)).samples;
-    if (samples < 2 || options.most_samples < samples) {
+    if (samples < 2 || options.most_samples / 2 < samples) {
       return fail("--most-samples", std::to_string(options.most_samples),
                   samples < 2 ? "needs two samples of all pixels, to compare"
-                              : "is less than the samples of all pixels");
+                              : "is less than twice the samples of all pixels");
     }
   }
   for (const std::string& pass : options.without) {

@@ -75,6 +75,9 @@ Expected<void> render(const RenderOptions& options) {
   if (!size) return tl::unexpected(size.error());
   if (const auto fits = check_picture_memory(options, *size, available_memory()); !fits)
     return fits;
+  if (options.most_samples > 0 && made_in_bands(options, *size)) {
+    return fail("--most-samples", "", "goes with pictures of up to two million pixels");
+  }
   const ThreadLimit limit(options.threads);
 
   const auto device = open_backend(options.backend);

@@ -25,10 +25,11 @@ struct FrameSettings {
   int width = 1280;  ///< Pixels, 1 to 16384.
   int height = 720;  ///< Pixels, 1 to 16384.
   /// The picture's rows that are rendered: `rows` of them from `first_row` on; 0 `rows`: all from
-  /// `first_row` on. Their pixels have the same bits as in the whole picture, so that one too large
-  /// for memory can be rendered some rows at a time. Calls with a `first_row` above 0 reuse the
-  /// reflective shadow maps of the picture before, where that had the same camera, size and world.
-  /// The maps' stages (IndirectSources::rsm_stages) are stored for whole pictures only.
+  /// `first_row` on. Their pixels have the same bits as in the whole picture without
+  /// `most_samples`, so that one too large for memory can be rendered some rows at a time. Calls
+  /// with a `first_row` above 0 reuse the reflective shadow maps of the picture before, where that
+  /// had the same camera, size and world. The maps' stages (IndirectSources::rsm_stages) are stored
+  /// for whole pictures only.
   int first_row = 0;
   int rows = 0;
   /// Primary rays per pixel, >= 1: a single ray passes through its centre, several are spread over
@@ -36,9 +37,11 @@ struct FrameSettings {
   int samples = 1;
   /// Most primary rays per pixel, >= 0: pixels whose samples differ visibly, at edges, on thin
   /// things and where see-through surfaces overlap, double their number of samples, once or more,
-  /// up to this. 0: none does. Further samples have a quarter of the rays that gather and reflect
-  /// light, and a pixel takes 45 bytes more. Parts of a picture, and pictures with averaged_frames
-  /// or temporal_antialiasing, take none. Needs two `samples`, to compare.
+  /// up to this. 0: none does. Further samples have half of the rays that gather light, and a
+  /// quarter of those that reflect it; a pixel takes 22 bytes more, and 4 for each of `samples`.
+  /// Parts of a picture, and pictures with averaged_frames or temporal_antialiasing, take none.
+  /// Below twice `samples`, and with a single one, which there is nothing to compare with, nothing
+  /// happens.
   int most_samples = 0;
   /// Samples of emissive triangles and of many lights for direct light, >= 1; a shadow ray each.
   int emissive_samples = 4;
@@ -82,8 +85,8 @@ struct FrameSettings {
   /// follows the camera's rotation. Where a surface of AlphaMode::blend is in front, it is the
   /// motion of the surface behind it. NaN where the motion is unknown: in the first picture and
   /// after a change of size, for new objects, and for a mesh that is edited by hand for the first
-  /// time. Of several samples, the nearest one's motion. Costs about a hundredth of a frame, and a
-  /// ray where something is see-through.
+  /// time. Of the first `samples`, the nearest one's motion. Costs about a hundredth of a frame,
+  /// and a ray where something is see-through.
   bool motion = false;
   /// Anti-alias the picture (the layer "") over the renderer's pictures so far that were rendered
   /// with this setting (temporal anti-aliasing): samples are jittered within the pixels from one
@@ -139,7 +142,7 @@ struct IndirectSources {
 /// light from the sources. Surfaces without a diffuse base reflect the light of the field, or
 /// without a field, that of the maps. The memory of its passes is reused from picture to picture,
 /// and grows only where one needs more: about 50 MB, for maps as RsmSettings say, and on a device
-/// 136 bytes for each pixel of a picture. Not thread-safe.
+/// 144 bytes for each pixel of a picture. Not thread-safe.
 class Renderer {
  public:
   /// Refers to the world and to the sources' fields, which must outlive it and must not be moved;

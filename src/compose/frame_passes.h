@@ -30,7 +30,7 @@ struct FrameRequest {
   const MovedParts* moved = nullptr;      ///< Where it has changed by these parts alone; else null.
   std::uint32_t first_sample = 0;         ///< Index of the frame's first sample among all samples.
   const TaaSequence* sequence = nullptr;  ///< Null: no temporal anti-aliasing.
-  SampleRound round = {};
+  SampleRound round = {};                 ///< Which samples are taken, and of which pixels.
 
   /// Index of a sample among those of all frames, so that each frame draws other random numbers.
   int drawn(int sample) const { return sample + static_cast<int>(first_sample); }
@@ -107,9 +107,11 @@ class FramePasses {
   virtual void rsm() = 0;
   /// Before all bands: lights the fog of the whole view. For scenes that have fog.
   virtual void light_fog() = 0;
-  /// Traces a band's primary rays, one sample a pixel; starts the band's sample.
+  /// Traces a band's primary rays, a sample of each pixel that the round does not skip; starts the
+  /// band's sample. Pixels that are skipped show nothing from here on.
   virtual void gbuffer(const Band& band, int sample) = 0;
-  /// Computes where the pixels' surfaces were in the previous frame. See wants_motion().
+  /// Computes where the pixels' surfaces were in the previous frame, in the first round. See
+  /// wants_motion().
   virtual void motion() = 0;
   /// Direct light of lights and emissive surfaces; of the latter alone where lights are computed in
   /// sub-images.

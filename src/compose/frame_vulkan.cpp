@@ -106,7 +106,7 @@ void FramePassesVulkan::gbuffer(const Band& band, int sample) {
   sample_ = static_cast<std::uint32_t>(sample);
   reserve_pixels(pixels_);
   ray_light_flags_ = 0;
-  frame_->rays += pixels_;
+  frame_->rays += sampled_pixels(first_pixel_, pixels_);
   add("gbuffer", [this](Recorder& to) {
     const FrameSettings& s = request_->settings;
     trace_pixels(to, {{memory_.rays.address()},

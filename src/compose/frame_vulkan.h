@@ -256,6 +256,8 @@ class FramePassesVulkan final : public FramePasses {
   void add(const char* name, Record record);
   void run_steps();
   void reserve_pixels(std::size_t pixels);
+  /// How many of the picture's `count` pixels from `first` on have a sample.
+  std::uint32_t sampled_pixels(std::uint32_t first, std::uint32_t count) const;
   void trace_pixels(Recorder& to, const CameraRaysArguments& arguments);
   /// Makes room for the positions, normals and depths of a view's pixels.
   RsmViewOnDevice reserve_geometry(int width, int height, Buffer (&geometry)[3]);
@@ -308,6 +310,8 @@ class FramePassesVulkan final : public FramePasses {
   /// or of the paths in a list.
   void sample_lights_behind(Recorder& to, const DevicePixels& seen, std::uint32_t count, uint salt,
                             const PathBuffers* paths);
+  /// See pack_path_step().
+  std::uint32_t path_step(std::uint32_t bounce) const;
   /// Samples of emitters at each hit behind glass; 0 where nothing is drawn at random.
   std::uint32_t draws_behind_glass() const;
   void begin_through(std::size_t pixels);

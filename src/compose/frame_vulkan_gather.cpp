@@ -152,7 +152,7 @@ void FramePassesVulkan::gather() {
 
   for (std::uint32_t first = 0; first < pixels_; first += most) {
     const GatheredPixels pixels{first, std::min(most, pixels_ - first), rays_per_pixel};
-    frame_->rays += pixels.rays();
+    frame_->rays += sampled_pixels(first_pixel_ + first, pixels.count) * rays_per_pixel;
     draw_gathers(pixels);
     light_gathers(m.gathers, pixels.rays(), m.gathering_indices, rays_per_pixel, shading);
     draw_secondary_gathers(pixels, static_cast<int>(grids.size()));

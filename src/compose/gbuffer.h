@@ -56,7 +56,7 @@ struct GBuffer {
   std::vector<glm::vec3> to_viewer_ws;  ///< Unit; back along the primary ray.
   std::vector<CoatShares> coat_shares;  ///< Empty: coats have no rays of their own.
   /// 1 where the pixel has no sample: it then shows nothing, with a weight of 0. Empty: all have
-  /// one.
+  /// one. Valid until the end of the frame.
   std::span<const std::uint8_t> skipped;
 
   std::size_t size() const { return hit.size(); }
@@ -75,7 +75,8 @@ inline float shown_weight(const GBuffer& gbuffer, std::span<const glm::vec4> fog
 glm::vec2 sample_position(const FrameSettings& settings, int x, int y, int sample, uint jitter);
 
 /// Traces one primary ray a pixel: through its centre where the frame takes one sample, otherwise
-/// at a different point of the pixel for each sample. Returns the number of rays traced.
+/// at a different point of the pixel for each sample. Pixels that `round` skips show nothing.
+/// Returns the number of rays traced.
 std::uint64_t trace_gbuffer(const World& world, const Camera& camera, const FrameSettings& settings,
                             const Band& band, int sample, GBuffer& gbuffer, uint jitter = 0,
                             const SampleRound& round = {});

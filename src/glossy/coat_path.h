@@ -56,9 +56,9 @@ const uint kStageBeyondCoat = 7u;
 const uint kStageBeyondMirroredCoat = 8u;
 
 // Values of CoatPath::fork: whether a path splits at glass into a refracted and a reflected branch.
-/// It does not split: at each surface one of the two directions is drawn at random.
+/// It does not split: at each surface one of the two directions is chosen, see glass_choice().
 const uint kForksNowhere = 0u;
-/// It splits at the first smooth surface that both transmits and reflects.
+/// It splits at the next smooth surface that both transmits and reflects; see forks().
 const uint kForksNext = 1u;
 /// It has just split, and this is the transmitted branch.
 const uint kForkCrosses = 2u;

@@ -3,9 +3,9 @@
 #ifndef LAMBENT_GLOSSY_PATH_MATH_H
 #define LAMBENT_GLOSSY_PATH_MATH_H
 
+#include "glossy/glass_choice.h"
 #include "glossy/glossy_math.h"
 #include "raytracing/transmission_math.h"
-#include "scene/coverage.h"
 #include "scene/sky/bright_sky.h"
 #include "shared/demodulate.h"
 
@@ -282,48 +282,6 @@ LAMBENT_FN float crossing_chance(Transmission through, Reflectance coat, float c
                               coat_share * specular_albedo(coat, n_dot_v));
 }
 
-// Least chance with which a path that came through glass alone is reflected by the next smooth
-// glass, and with which it crosses it. Of four samples one then shows the reflection, faint as it
-// is: with a chance in proportion, hardly any pixel of a pane would show it, and those all too
-// bright.
-const float kLeastGlassChance = 0.25f;
-// Least number of a pixel's samples for that: of fewer, each would show one of the two alone.
-const uint kLeastStratifiedSamples = 4u;
-
-/// By which number a path chooses at glass, and how rarely one of its ways may be taken.
-struct GlassChoice {
-  float number;        ///< [0, 1); those of a pixel's successive samples lie in equal parts.
-  float least_chance;  ///< See kLeastGlassChance; 0: chances are in proportion to light.
-};
-
-/// A step of the paths of a pixel's sample: the bounce that they are on, below 256, and which of
-/// how many samples it is. In one word, as kernels have no room for more.
-LAMBENT_FN uint pack_path_step(uint bounce, uint sample_index, uint samples) {
-  uint stratified = samples >= kLeastStratifiedSamples ? 1u : 0u;
-  return bounce | (stratified << 8u) | (sample_index << 9u);
-}
-LAMBENT_FN uint bounce_of_step(uint path_step) {
-  return path_step & 255u;
-}
-/// Whether the pixel has enough samples for kLeastGlassChance.
-LAMBENT_FN bool is_stratified(uint path_step) {
-  return (path_step & 256u) != 0u;
-}
-
-/// The choice of a pixel's path at a step, see pack_path_step().
-LAMBENT_FN GlassChoice glass_choice(uint pixel, uint path_step, uint seed) {
-  uint order = hash_pcg3d(uvec3(pixel, bounce_of_step(path_step) + kGlassSalt, seed)).x;
-  GlassChoice choice = {
-      uniform_from_bits(bitfieldReverse(scramble_reversed(path_step >> 9u, order))),
-      is_stratified(path_step) ? kLeastGlassChance : 0.0f};
-  return choice;
-}
-
-/// A chance that is neither 0 nor 1, moved away from both.
-LAMBENT_FN float moderate_chance(float chance, float least) {
-  return chance > 0.0f && chance < 1.0f ? clamp(chance, least, 1.0f - least) : chance;
-}
-
 /// Whether a path splits into a transmitted and a reflected branch at the surface that it hit.
 /// Where samples are stratified, it does so at the next glass that it enters: they show what the
 /// far side of the glass before it reflects well enough.
@@ -367,7 +325,10 @@ LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, CoatShares shar
                                 vec3(u, is_crossed ? kNeverReflected : kAlwaysReflected), path);
   }
   crossing = moderate_chance(crossing, least);
-  if (crossing > 0.0f && choice.number < crossing) {
+  // Other choices are apart for each ray of a pixel. Draw no number where there is none to make
+  float number = choice.number;
+  if (least <= 0.0f && crossing > 0.0f && crossing < 1.0f) number = next_uniform(random);
+  if (crossing > 0.0f && number < crossing) {
     path.throughput /= crossing;
     return extend_through_glass(through, coat, normal_ws, to_viewer_ws, density_scale,
                                 vec3(u, next_uniform(random)), path);

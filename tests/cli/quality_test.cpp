@@ -94,7 +94,7 @@ TEST_F(QualityOption, RefusesWhatDoesNotGoTogether) {
       {"--gather 4 --without gather", "--gather"},
       {"--coat-rays 2 --without glossy", "--coat-rays"},
       {"--most-samples 0", "--most-samples"},
-      {"--samples 8 --most-samples 4", "--most-samples"},
+      {"--samples 8 --most-samples 12", "--most-samples"},
       {"--quality interactive --most-samples 4", "--most-samples"},
       {"--frames 2 --most-samples 4", "--most-samples"}};
   for (const auto& [options, named] : cases) {

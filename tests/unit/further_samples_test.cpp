@@ -46,6 +46,29 @@ TEST(PixelNoise, LeavesPixelsAloneThatLookLikeTheirNeighbours) {
   EXPECT_EQ(chosen(pane), (Flags{1, 1, 1, 1, 1}));
 }
 
+// Two samples of a pixel that differ, and two more that are their mean: its error is no longer
+// visible.
+TEST(PixelNoise, CountsTheSamplesOfEachRound) {
+  PixelNoise noise(5, 1);
+  Flags skipped(5);
+  const float first[] = {1.0f, 1.0f, 1.0f, 2.0f, 2.0f}, second[] = {1.0f, 1.0f, 2.0f, 2.0f, 2.0f};
+  std::vector<float> picture(5, 0.0f);
+  for (const auto& sample : {first, second}) {
+    for (std::size_t i = 0; i < picture.size(); ++i) picture[i] += 0.5f * sample[i];
+    noise.add(picture, 0.5f, {});
+  }
+  EXPECT_EQ(noise.choose(0.0f, skipped), 3u);
+  EXPECT_EQ(skipped, (Flags{1, 0, 0, 0, 1}));
+  const std::vector<float> mean = picture;
+  noise.scale(0.5f, skipped);
+  for (std::size_t i = 1; i < 4; ++i) picture[i] *= 0.5f;
+  for (int sample = 0; sample < 2; ++sample) {
+    for (std::size_t i = 1; i < 4; ++i) picture[i] += 0.25f * mean[i];
+    noise.add(picture, 0.25f, skipped);
+  }
+  EXPECT_EQ(noise.choose(0.0f, skipped), 0u);
+}
+
 // An edge against a lamp is as visible as one against a wall, and one in the dark is not.
 TEST(PixelNoise, IsThatOfADisplay) {
   const auto step = [](float dark, float bright) {
@@ -134,10 +157,11 @@ TEST(FurtherSamples, AreForWholePicturesThatStandAlone) {
   EXPECT_FALSE(is_same([](FrameSettings&) {}));
   EXPECT_TRUE(is_same([](FrameSettings& s) { s.rows = 20; }));
   EXPECT_TRUE(is_same([](FrameSettings& s) { s.temporal_antialiasing = true; }));
+  EXPECT_TRUE(is_same([](FrameSettings& s) { s.most_samples = std::min(s.most_samples, 7); }));
   EXPECT_TRUE(is_same([](FrameSettings& s) { s.samples = 1; }));
 }
 
-// All kinds of light that are filtered, behind blended and before transmissive glass.
+// Light that is filtered, behind a blended pane and beside glass.
 TEST(FurtherSamples, ComeCloserToManyInFilteredPicturesAndKeepTheirLight) {
   for (Scene scene : {test::box_behind_a_pane(), scenes::make("glass").value()}) {
     const test::Stage stage(std::move(scene));

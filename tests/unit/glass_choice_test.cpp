@@ -26,16 +26,20 @@ TEST(GlassChoice, OfSuccessiveSamplesLieInEqualParts) {
   }
 }
 
-TEST(GlassChoice, IsAnotherOneOnEachBounce) {
-  int same = 0;
-  for (uint pixel = 0; pixel < 200; ++pixel) {
-    const auto part = [&](uint bounce) {
-      return static_cast<int>(4.0f *
-                              glass_choice(pixel, pack_path_step(bounce, 0, 4), kSeed).number);
-    };
-    if (part(1) == part(2)) ++same;
+// Two surfaces of which each lets three of four samples pass let nine of sixteen pass together, at
+// each pixel.
+TEST(GlassChoice, OfTwoBouncesAreIndependentAtEachPixel) {
+  constexpr uint kSamples = 1024;
+  for (uint pixel = 0; pixel < 20; ++pixel) {
+    int both = 0;
+    for (uint i = 0; i < kSamples; ++i) {
+      const auto number = [&](uint bounce) {
+        return glass_choice(pixel, pack_path_step(bounce, i, 4), kSeed).number;
+      };
+      if (number(1) < 0.75f && number(2) < 0.75f) ++both;
+    }
+    EXPECT_NEAR(static_cast<double>(both) / kSamples, 0.5625, 0.04) << pixel;
   }
-  EXPECT_NEAR(same, 50, 20);
 }
 
 /// A smooth path at the glass that it is to pass next.
@@ -76,6 +80,26 @@ TEST(GlassChoice, FourSamplesCarryWhatIsReflectedAndWhatPasses) {
       EXPECT_NEAR(sums.y, 1.0f - kReflected, 0.01f);
     }
   }
+}
+
+// Rays of one pixel's coat, of which each has a random stream, choose apart.
+TEST(GlassChoice, OfFewSamplesIsEachRaysOwn) {
+  const Reflectance glass = coated_reflectance(vec3(1.0f), 0.0f, 0.0f, 1.0f, vec3(1.0f), 1.5f);
+  Transmission half = no_transmission();
+  half.alpha = 0.0f;
+  half.tint = vec3(0.04f);
+  const vec3 normal(0.0f, 0.0f, 1.0f);
+  int crossing = 0;
+  constexpr int kRays = 200;
+  for (uint ray = 0; ray < kRays; ++ray) {
+    CoatPath path = path_through_glass();
+    const NextRay next = go_on(half, glass, {1.0f, 0.0f}, normal, normal, normal, 0.0f, 2,
+                               glass_choice(9, pack_path_step(2, 0, 1), kSeed),
+                               make_random_stream(9, ray, kSeed), path);
+    if (next.side < 0.0f) ++crossing;
+  }
+  EXPECT_GT(crossing, kRays / 4);
+  EXPECT_LT(crossing, kRays * 3 / 4);
 }
 
 // With fewer samples chances are in proportion: none of them may show reflections alone.

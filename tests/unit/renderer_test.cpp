@@ -88,6 +88,7 @@ TEST_F(RendererTest, RefusesSettingsOutOfRangeByName) {
   EXPECT_EQ(refused([](FrameSettings& s) { s.rows = 7; }), "rows");
   EXPECT_EQ(refused([](FrameSettings& s) { s.first_row = 1, s.rows = 6; }), "rows");
   EXPECT_EQ(refused([](FrameSettings& s) { s.samples = 0; }), "samples");
+  EXPECT_EQ(refused([](FrameSettings& s) { s.most_samples = -1; }), "most samples");
   EXPECT_EQ(refused([](FrameSettings& s) { s.emissive_samples = 0; }), "emissive samples");
   EXPECT_EQ(refused([](FrameSettings& s) { s.reflected_emissive_samples = 0; }),
             "reflected emissive samples");

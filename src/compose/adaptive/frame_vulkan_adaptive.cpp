@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Further samples of some pixels on a device: which ones is found on the processor.
+#include <algorithm>
+
 #include "compose/frame_vulkan.h"
 #include "compose/layers.h"
 #include "core/image/exposure.h"
@@ -26,6 +28,13 @@ float FramePassesVulkan::exposure() {
   shape_layers(request_->settings.width, request_->settings.height, image);
   read_layers(image);
   return display_stops(image);
+}
+
+std::uint32_t FramePassesVulkan::sampled_pixels(std::uint32_t first, std::uint32_t count) const {
+  const std::span<const std::uint8_t> skipped = request_->round.skipped;
+  if (skipped.empty()) return count;
+  const auto pixels = skipped.subspan(first, count);
+  return static_cast<std::uint32_t>(std::count(pixels.begin(), pixels.end(), 0));
 }
 
 void FramePassesVulkan::refine(const FrameRequest& request, float kept) {

@@ -6,49 +6,53 @@
 namespace lambent {
 namespace {
 
-// A further sample has this share of the rays of one of the first samples.
-constexpr int kFewerRays = 4;
+// How many times fewer rays gather the light of a further sample than that of one of the first.
+// With four times fewer, the filter blurs it: hotel_room had a FLIP of 0.091 instead of 0.078.
+constexpr int kFewerGathers = 2;
+// The same for rays of reflections and of what glass shows.
+constexpr int kFewerReflections = 4;
 
-/// The number of rays of a further sample. Where there were several, there are two at least: their
+/// A number of rays, so many times fewer. Where there were several, there are two at least: their
 /// variance is measured.
-int fewer(int rays) {
-  return rays > 1 ? std::max(rays / kFewerRays, 2) : rays;
+int fewer(int rays, int times) {
+  return rays > 1 ? std::max(rays / times, 2) : rays;
 }
 
-bool takes_further(const FrameSettings& settings) {
+}  // namespace
+
+bool takes_further_samples(const FrameSettings& settings) {
   const bool whole = rendered_rows(settings).rows == settings.height;
   return whole && !averages(settings) && !settings.temporal_antialiasing && settings.samples > 1 &&
          settings.most_samples / 2 >= settings.samples;
 }
 
-}  // namespace
-
 FurtherSamples::FurtherSamples(const FrameRequest& request, FramePasses& passes)
     : request_(request), passes_(passes), settings_(request.settings) {
-  if (!takes_further(settings_)) return;
+  if (!takes_further_samples(settings_)) return;
   const auto width = static_cast<std::size_t>(settings_.width);
   const auto height = static_cast<std::size_t>(settings_.height);
   skipped_.assign(width * height, 0);
   noise_.emplace(width, height);
-  settings_.gather_rays = fewer(settings_.gather_rays);
-  settings_.coat_rays = fewer(settings_.coat_rays);
-  settings_.reflected_emissive_samples = fewer(settings_.reflected_emissive_samples);
+  settings_.gather_rays = fewer(settings_.gather_rays, kFewerGathers);
+  settings_.coat_rays = fewer(settings_.coat_rays, kFewerReflections);
+  settings_.reflected_emissive_samples =
+      fewer(settings_.reflected_emissive_samples, kFewerReflections);
 }
 
 void FurtherSamples::note_sample() {
   // The last round's samples are not looked at
-  if (!noise_ || !takes_further(settings_)) return;
+  if (!noise_ || !takes_further_samples(settings_)) return;
   passes_.read_luminances(luminances_);
   noise_->add(luminances_, 1.0f / static_cast<float>(settings_.samples), skipped_);
 }
 
-const FrameRequest* FurtherSamples::next_round() {
-  if (!noise_ || !takes_further(settings_)) return nullptr;
+const FrameRequest* FurtherSamples::start_round() {
+  if (!noise_ || !takes_further_samples(settings_)) return nullptr;
   if (!round_) stops_ = passes_.exposure();
   if (noise_->choose(stops_, skipped_) == 0) return nullptr;
-  constexpr float kKept = 0.5f;
   const int taken = settings_.samples;
   settings_.samples = 2 * taken;
+  const float kept = static_cast<float>(taken) / static_cast<float>(settings_.samples);
   round_.emplace(FrameRequest{request_.world,
                               request_.sources,
                               request_.camera,
@@ -59,8 +63,8 @@ const FrameRequest* FurtherSamples::next_round() {
                               request_.first_sample,
                               request_.sequence,
                               {taken, skipped_}});
-  passes_.refine(*round_, kKept);
-  noise_->scale(kKept, skipped_);
+  passes_.refine(*round_, kept);
+  noise_->scale(kept, skipped_);
   return &*round_;
 }
 

@@ -15,21 +15,24 @@
 
 namespace lambent {
 
+/// Whether pixels of such a picture may take further samples.
+bool takes_further_samples(const FrameSettings& settings);
+
 class FurtherSamples {
  public:
-  /// Both must outlive this.
+  /// Both must outlive this, and this must outlive the frame.
   FurtherSamples(const FrameRequest& request, FramePasses& passes);
 
   /// To be called after each sample.
   void note_sample();
   /// Starts a round. Returns its request, whose settings have twice the samples of the last one:
   /// the second half of these are to be taken. Null where no pixel needs any.
-  const FrameRequest* next_round();
+  const FrameRequest* start_round();
 
  private:
   const FrameRequest& request_;
   FramePasses& passes_;
-  std::vector<std::uint8_t> skipped_;  // see FrameRequest
+  std::vector<std::uint8_t> skipped_;  // see SampleRound
   std::vector<float> luminances_;      // scratch memory
   std::optional<PixelNoise> noise_;    // none where pixels take no further samples
   float stops_ = 0.0f;                 // exposure of the picture by the first samples

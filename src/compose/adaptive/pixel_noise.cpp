@@ -6,14 +6,14 @@
 #include <cmath>
 
 #include "compose/frame_tasks.h"
-#include "core/image/mid_grey.h"
 #include "core/parallel.h"
 
 namespace lambent {
 namespace {
 
 // Standard error of a pixel's mean above which it takes further samples, as a share of the range of
-// a display: eight of 255 levels.
+// a display: eight of 255 levels. Grain of less is hardly seen; below half of that, the noise that
+// the filter leaves on plain walls would be taken for edges.
 constexpr float kVisibleError = 8.0f / 255.0f;
 
 // No sample.
@@ -41,6 +41,7 @@ void PixelNoise::add(std::span<const float> luminances, float share,
       last_[i] = luminances[i];
     }
   });
+  if (middle_) count_pending();
 }
 
 void PixelNoise::scale(float kept, std::span<const std::uint8_t> skipped) {
@@ -50,12 +51,12 @@ void PixelNoise::scale(float kept, std::span<const std::uint8_t> skipped) {
 }
 
 /// Adds the pending samples to the sums.
-void PixelNoise::count_pending(float middle) {
+void PixelNoise::count_pending() {
   parallel_chunks(sums_.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (const std::vector<float>& sample : pending_) {
       for (std::size_t i = begin; i < end; ++i) {
         if (sample[i] == kNone) continue;
-        const float value = shown(sample[i], middle);
+        const float value = shown(sample[i], *middle_);
         sums_[i].sum += value;
         sums_[i].squares += value * value;
         ++sums_[i].count;
@@ -75,7 +76,8 @@ bool PixelNoise::is_noisy(std::size_t pixel) const {
 }
 
 std::size_t PixelNoise::choose(float stops, std::span<std::uint8_t> skipped) {
-  count_pending(std::exp2(-stops));
+  if (!middle_) middle_ = std::exp2(-stops);
+  count_pending();
   const std::vector<std::uint8_t> before(skipped.begin(), skipped.end());
   const std::size_t height = sums_.size() / width_;
   std::atomic<std::size_t> chosen = 0;

@@ -2,7 +2,9 @@
 // How much the samples of pixels differ, as a display shows them, and which pixels need more.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,14 +24,14 @@ class PixelNoise {
   void scale(float kept, std::span<const std::uint8_t> skipped);
 
   /// Chooses, among the pixels that are not skipped, those whose mean of samples, as a display
-  /// shows it, differs from a neighbour's by more than kVisibleError, and has a standard error
-  /// above it, or has a neighbour that has. Samples of a pixel may agree by chance: if its own
-  /// decided alone, what is rare would be lost. Marks all others as skipped. `skipped` has an entry
-  /// for each pixel. `stops`: the picture's exposure. Returns how many are chosen.
+  /// shows it, visibly differs from a neighbour's, and has a visible standard error, or has a
+  /// neighbour that has. Samples of a pixel may agree by chance: if its own decided alone, what is
+  /// rare would be lost. Marks all others as skipped. `skipped` has an entry for each pixel.
+  /// `stops`: the picture's exposure, that of the first call. Returns how many are chosen.
   std::size_t choose(float stops, std::span<std::uint8_t> skipped);
 
  private:
-  void count_pending(float middle);
+  void count_pending();
   bool is_noisy(std::size_t pixel) const;
   float mean(std::size_t pixel) const {
     return sums_[pixel].sum / static_cast<float>(sums_[pixel].count);
@@ -43,8 +45,10 @@ class PixelNoise {
   std::size_t width_;
   std::vector<Sums> sums_;
   std::vector<float> last_;  // luminances of the picture so far
-  /// Samples since the last call of `choose`, one picture after the other; below 0: none.
+  /// Samples before the first call of `choose`, one picture after the other; below 0: none.
   std::vector<std::vector<float>> pending_;
+  /// The luminance that a display shows half as bright as it can, once `choose` has been called.
+  std::optional<float> middle_;
 };
 
 }  // namespace lambent

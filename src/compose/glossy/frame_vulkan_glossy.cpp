@@ -66,7 +66,8 @@ void FramePassesVulkan::see_around_band(const Band& around) {
   const std::uint32_t before =
       static_cast<std::uint32_t>(band_.first_row - around.first_row) * width;
   const std::uint32_t all = static_cast<std::uint32_t>(around.rows) * width;
-  frame_->rays += all - pixels_;
+  frame_->rays += sampled_pixels(static_cast<std::uint32_t>(around.first_row) * width, all) -
+                  sampled_pixels(first_pixel_, pixels_);
   add("glossy", [=, this](Recorder& to) {
     const FrameSettings& settings = request_->settings;
     FrameMemory& m = memory_;
@@ -313,7 +314,7 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
         first_index,
         salt,
         path_seed_,
-        pack_path_step(bounce, sample_, static_cast<uint>(request_->settings.samples)),
+        path_step(bounce),
         static_cast<uint>(request_->settings.reflected_emissive_samples)};
     to.run(kernels_.coat_light, lit, paths);
   });

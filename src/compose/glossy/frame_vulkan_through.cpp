@@ -90,10 +90,15 @@ void FramePassesVulkan::split_paths(const PathBuffers& from, std::uint32_t count
         first_index,
         salt,
         path_seed_,
-        pack_path_step(bounce, sample_, static_cast<uint>(request_->settings.samples)),
+        path_step(bounce),
         static_cast<uint>(request_->settings.reflected_emissive_samples)};
     to.run(kernels_.split_paths, arguments, count);
   });
+}
+
+std::uint32_t FramePassesVulkan::path_step(std::uint32_t bounce) const {
+  const int samples = request_->settings.samples - request_->round.first;
+  return pack_path_step(bounce, sample_, static_cast<uint>(samples));
 }
 
 std::uint32_t FramePassesVulkan::draws_behind_glass() const {

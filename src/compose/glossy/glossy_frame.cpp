@@ -189,9 +189,8 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
   return traced;
 }
 
-/// Adds the light of the field and of lights that the hits reflect, and draws the rays that go on
-/// from there. Returns how many these are.
-std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t bounce) {
+/// Adds the light of the field that the hits reflect.
+void Glossy::add_field_light(const GlossySettings& settings) {
   // Query the field for the light of bases, and for that of coats which does not come from rays
   queries_.clear();
   asked_.clear();
@@ -227,6 +226,12 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
                                                   met_.coat_shares[i], answers_[k]);
     add_radiance(paths_.paths[i], light, rays_[i]);
   }
+}
+
+/// Adds the light of the field and of lights that the hits reflect, and draws the rays that go on
+/// from there. Returns how many these are.
+std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t bounce) {
+  add_field_light(settings);
   const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);
   const uint step = path_step(settings, bounce);
   std::atomic<std::uint64_t> going_on = 0;
@@ -290,7 +295,8 @@ GlossySettings glossy_settings(const FrameRequest& request, const FrameSettings&
           frame,
           camera_record(request.camera, frame.width, frame.height),
           request.drawn(sample),
-          request.jitter()};
+          request.jitter(),
+          request.round.first};
 }
 
 bool filters_mirrored_coats(const FrameRequest& request) {

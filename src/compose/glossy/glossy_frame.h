@@ -75,6 +75,7 @@ class Glossy {
   std::uint64_t sample_lights_behind(const GlossySettings& settings, const GBuffer& seen,
                                      std::uint32_t bounce);
   std::uint64_t follow_rays(const GlossySettings& settings, std::uint32_t bounce);
+  void add_field_light(const GlossySettings& settings);
   std::uint64_t light_hits(const GlossySettings& settings, std::uint32_t bounce);
 
   uint salt_ = 0;                // of the random numbers

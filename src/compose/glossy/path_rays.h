@@ -28,7 +28,7 @@ inline float reflected_density_scale(const GlossySettings& settings, const Surfa
 /// See pack_path_step().
 inline uint path_step(const GlossySettings& settings, std::uint32_t bounce) {
   return pack_path_step(bounce, static_cast<uint>(settings.sample),
-                        static_cast<uint>(settings.frame.samples));
+                        static_cast<uint>(settings.frame.samples - settings.first_of_round));
 }
 
 /// The cone of a pixel's primary ray at its hit.

@@ -21,6 +21,7 @@ struct GlossySettings {
   CameraRecord camera;
   int sample = 0;            ///< Index among the samples of all frames.
   std::uint32_t jitter = 0;  ///< See camera_cone().
+  int first_of_round = 0;    ///< See SampleRound.
 };
 
 /// Successive rows of a picture, with the surfaces that the camera sees.

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// How paths through glass choose between reflection and crossing.
+#ifndef LAMBENT_GLOSSY_GLASS_CHOICE_H
+#define LAMBENT_GLOSSY_GLASS_CHOICE_H
+
+#include "scene/coverage.h"
+
+LAMBENT_BEGIN
+
+// Least chance with which a path that came through glass alone is reflected by the next smooth
+// glass, and with which it crosses it. Of four samples one then shows the reflection, faint as it
+// is: with a chance in proportion, hardly any pixel of a pane would show it, and those all too
+// bright.
+const float kLeastGlassChance = 0.25f;
+// Least number of a pixel's samples for that: of fewer, each would show one of the two alone.
+const uint kLeastStratifiedSamples = 4u;
+
+/// By which number a path chooses at glass, and how rarely one of its ways may be taken.
+struct GlassChoice {
+  float number;        ///< [0, 1); those of a pixel's successive samples lie in equal parts.
+  float least_chance;  ///< See kLeastGlassChance; 0: chances are in proportion to light.
+};
+
+/// A step of the paths of a pixel's sample: the bounce that they are on, below 256, and which of
+/// how many samples of its round it is (the index modulo 2^23). In one word, as kernels have no
+/// room for more.
+LAMBENT_FN uint pack_path_step(uint bounce, uint sample_index, uint samples) {
+  uint stratified = samples >= kLeastStratifiedSamples ? 1u : 0u;
+  return bounce | (stratified << 8u) | (sample_index << 9u);
+}
+LAMBENT_FN uint bounce_of_step(uint path_step) {
+  return path_step & 255u;
+}
+/// Whether the pixel has enough samples for kLeastGlassChance.
+LAMBENT_FN bool is_stratified(uint path_step) {
+  return (path_step & 256u) != 0u;
+}
+
+/// The choice of a pixel's path at a step, see pack_path_step().
+LAMBENT_FN GlassChoice glass_choice(uint pixel, uint path_step, uint seed) {
+  uvec3 order = hash_pcg3d(uvec3(pixel, bounce_of_step(path_step) + kGlassSalt, seed));
+  // Shuffled first, lest the choices of two bounces go together at all samples of a pixel
+  uint index = bitfieldReverse(scramble_reversed(bitfieldReverse(path_step >> 9u), order.x));
+  GlassChoice choice = {uniform_from_bits(bitfieldReverse(scramble_reversed(index, order.y))),
+                        is_stratified(path_step) ? kLeastGlassChance : 0.0f};
+  return choice;
+}
+
+/// A chance that is neither 0 nor 1, moved away from both.
+LAMBENT_FN float moderate_chance(float chance, float least) {
+  return chance > 0.0f && chance < 1.0f ? clamp(chance, least, 1.0f - least) : chance;
+}
+
+LAMBENT_END
+#endif
