@@ -24,7 +24,7 @@ constexpr std::uint64_t kMotionBytes = (5 + 2) * sizeof(float);
 constexpr std::uint64_t kTaaBytes = sizeof(PixelMotion) + 2 * sizeof(TaaPixel);
 static_assert(kTaaBytes == 108, "FrameSettings::temporal_antialiasing says how much it is");
 // By which further samples of a pixel are chosen: sums of its samples, flags, and scratch memory.
-constexpr std::uint64_t kNoiseBytes = 22;
+constexpr std::uint64_t kNoiseBytes = 21;
 // A picture that is written or compared, in addition to the frame: its display-encoded form, and a
 // copy.
 constexpr std::uint64_t kWritingBytes = 2 * kLayerBytes;

@@ -77,7 +77,7 @@ FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& siz
   frame.temporal_antialiasing = uses_taa(options);
   frame.seed = options.seed;
   if (options.samples > 0) frame.samples = options.samples;
-  // Who names a number means that one
+  // Without a number of its own, an explicit --samples takes no further ones
   if (options.samples > 0 || options.most_samples > 0) frame.most_samples = options.most_samples;
   if (options.frames > 0) frame.most_samples = 0;
   // Gathering adds a bounce to those of the field, so it is off where the number of bounces is

@@ -38,10 +38,9 @@ struct FrameSettings {
   /// Most primary rays per pixel, >= 0: pixels whose samples differ visibly, at edges, on thin
   /// things and where see-through surfaces overlap, double their number of samples, once or more,
   /// up to this. 0: none does. Further samples have half of the rays that gather light, and a
-  /// quarter of those that reflect it; a pixel takes 22 bytes more, and 4 for each of `samples`.
+  /// quarter of those that reflect it; a pixel takes 21 bytes more, and 4 for each of `samples`.
   /// Parts of a picture, and pictures with averaged_frames or temporal_antialiasing, take none.
-  /// Below twice `samples`, and with a single one, which there is nothing to compare with, nothing
-  /// happens.
+  /// Has no effect below twice `samples`, nor with one sample, which has none to differ from.
   int most_samples = 0;
   /// Samples of emissive triangles and of many lights for direct light, >= 1; a shadow ray each.
   int emissive_samples = 4;

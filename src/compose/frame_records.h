@@ -27,6 +27,16 @@ struct PixelLayers {
 };
 LAMBENT_DEVICE_ARRAY(PixelLayersArray, PixelLayers, 4)
 
+/// All layers times `scale`.
+LAMBENT_FN PixelLayers scaled_layers(PixelLayers layers, float scale) {
+  PixelLayers scaled = {
+      scale * layers.all,        scale * layers.direct,   scale * layers.indirect,
+      scale * layers.irradiance, scale * layers.glossy,   scale * layers.transmission,
+      scale * layers.emission,   scale * layers.fog,      scale * layers.albedo,
+      scale * layers.normal,     scale * layers.position, scale * layers.depth};
+  return scaled;
+}
+
 /// Makes a ray through each pixel of a band of rows.
 struct CameraRaysArguments {
   RayArray rays;

@@ -27,8 +27,8 @@ LAMBENT_FN vec2 subpixel_position(uint index, uint samples, uint seed) {
   return fract(shift + plastic_sequence(index));
 }
 
-/// The seed of the order in which the samples of a pixel from `first` on end at surfaces that are
-/// see-through; see FrameRequest::round.
+/// The seed by which a round's samples, from `first` on, are stratified at see-through surfaces;
+/// see SampleRound.
 LAMBENT_FN uint round_seed(uint seed, uint first) {
   return first == 0u ? seed : hash_pcg(seed + first);
 }

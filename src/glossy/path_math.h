@@ -325,7 +325,7 @@ LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, CoatShares shar
                                 vec3(u, is_crossed ? kNeverReflected : kAlwaysReflected), path);
   }
   crossing = moderate_chance(crossing, least);
-  // Other choices are apart for each ray of a pixel. Draw no number where there is none to make
+  // Elsewhere each ray of a pixel chooses by a number of its own, if there is a choice
   float number = choice.number;
   if (least <= 0.0f && crossing > 0.0f && crossing < 1.0f) number = next_uniform(random);
   if (crossing > 0.0f && number < crossing) {

@@ -48,8 +48,8 @@ void FurtherSamples::note_sample() {
 
 const FrameRequest* FurtherSamples::start_round() {
   if (!noise_ || !takes_further_samples(settings_)) return nullptr;
-  if (!round_) stops_ = passes_.exposure();
-  if (noise_->choose(stops_, skipped_) == 0) return nullptr;
+  if (!round_) noise_->expose(passes_.exposure());
+  if (noise_->choose(skipped_) == 0) return nullptr;
   const int taken = settings_.samples;
   settings_.samples = 2 * taken;
   const float kept = static_cast<float>(taken) / static_cast<float>(settings_.samples);

@@ -2,8 +2,8 @@
 // Further samples of the pixels whose samples differ visibly.
 //
 // After FrameSettings::samples samples of all pixels, those whose mean has a visible error double
-// theirs, round by round. Each round's samples are stratified as if there were no others, so that
-// the mean of each, and that of all, is unbiased.
+// theirs, round by round. Each round's samples are stratified by themselves, so that every round
+// shows see-through surfaces as much as they cover.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,6 @@ class FurtherSamples {
   std::vector<std::uint8_t> skipped_;  // see SampleRound
   std::vector<float> luminances_;      // scratch memory
   std::optional<PixelNoise> noise_;    // none where pixels take no further samples
-  float stops_ = 0.0f;                 // exposure of the picture by the first samples
   FrameSettings settings_;             // of the present round
   std::optional<FrameRequest> round_;  // none before the first one
 };

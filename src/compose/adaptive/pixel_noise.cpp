@@ -28,7 +28,7 @@ float shown(float luminance, float middle) {
 }  // namespace
 
 PixelNoise::PixelNoise(std::size_t width, std::size_t height)
-    : width_(width), sums_(width * height), last_(width * height, 0.0f) {}
+    : width_(width), height_(height), sums_(width * height), last_(width * height, 0.0f) {}
 
 void PixelNoise::add(std::span<const float> luminances, float share,
                      std::span<const std::uint8_t> skipped) {
@@ -75,32 +75,35 @@ bool PixelNoise::is_noisy(std::size_t pixel) const {
   return square_error > kVisibleError * kVisibleError;
 }
 
-std::size_t PixelNoise::choose(float stops, std::span<std::uint8_t> skipped) {
-  if (!middle_) middle_ = std::exp2(-stops);
+/// Whether a pixel visibly differs from a neighbour, and one of them has a visible error.
+bool PixelNoise::needs_more(std::size_t x, std::size_t y) const {
+  bool noisy = false;
+  float least = mean(y * width_ + x), most = least;
+  for (std::size_t there_y = y - (y > 0); there_y < std::min(y + 2, height_); ++there_y) {
+    for (std::size_t there_x = x - (x > 0); there_x < std::min(x + 2, width_); ++there_x) {
+      const std::size_t there = there_y * width_ + there_x;
+      noisy = noisy || is_noisy(there);
+      least = std::min(least, mean(there));
+      most = std::max(most, mean(there));
+    }
+  }
+  return noisy && most - least > kVisibleError;
+}
+
+void PixelNoise::expose(float stops) {
+  middle_ = std::exp2(-stops);
   count_pending();
-  const std::vector<std::uint8_t> before(skipped.begin(), skipped.end());
-  const std::size_t height = sums_.size() / width_;
+}
+
+std::size_t PixelNoise::choose(std::span<std::uint8_t> skipped) const {
   std::atomic<std::size_t> chosen = 0;
-  parallel_chunks(height, 1, [&](std::size_t y, std::size_t) {
+  parallel_chunks(height_, 1, [&](std::size_t y, std::size_t) {
     std::size_t count = 0;
     for (std::size_t x = 0; x < width_; ++x) {
-      const std::size_t i = y * width_ + x;
-      if (before[i] != 0) continue;
-      bool noisy = false;
-      float least = mean(i), most = least;
-      for (std::size_t there_y = y - (y > 0); there_y < std::min(y + 2, height); ++there_y) {
-        for (std::size_t there_x = x - (x > 0); there_x < std::min(x + 2, width_); ++there_x) {
-          const std::size_t there = there_y * width_ + there_x;
-          noisy = noisy || is_noisy(there);
-          least = std::min(least, mean(there));
-          most = std::max(most, mean(there));
-        }
-      }
-      if (noisy && most - least > kVisibleError) {
-        ++count;
-      } else {
-        skipped[i] = 1;
-      }
+      std::uint8_t& skips = skipped[y * width_ + x];
+      if (skips != 0) continue;
+      skips = needs_more(x, y) ? 0 : 1;
+      count += 1 - skips;
     }
     chosen += count;
   });

@@ -91,7 +91,7 @@ void SeenThrough::start(std::size_t pixels, const GBuffer& gbuffer, std::size_t 
   parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t pixel = first + i;
-      // What is behind a pixel was added to its light when it was filtered
+      // The light of a skipped pixel already includes what is behind: that must not be added again
       emitter_albedo[pixel] = coat_albedo[pixel] = albedo[pixel] = vec3(0.0f);
       if (gbuffer.skips(i)) continue;
       depths[pixel] = emitter_levels[pixel] = coat_alphas[pixel] = alphas[pixel] = 0.0f;

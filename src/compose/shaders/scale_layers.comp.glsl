@@ -12,18 +12,5 @@ layout(push_constant, scalar) uniform Push {
 void main() {
   uint pixel = gl_GlobalInvocationID.x;
   if (pixel >= args.count || args.skipped.at[pixel] != 0u) return;
-  PixelLayers layers = args.layers.at[pixel];
-  layers.all *= args.scale;
-  layers.direct *= args.scale;
-  layers.indirect *= args.scale;
-  layers.irradiance *= args.scale;
-  layers.glossy *= args.scale;
-  layers.transmission *= args.scale;
-  layers.emission *= args.scale;
-  layers.fog *= args.scale;
-  layers.albedo *= args.scale;
-  layers.normal *= args.scale;
-  layers.position *= args.scale;
-  layers.depth *= args.scale;
-  args.layers.at[pixel] = layers;
+  args.layers.at[pixel] = scaled_layers(args.layers.at[pixel], args.scale);
 }
