@@ -20,6 +20,7 @@
 #include "lambent/commands.h"
 #include "lambent/console.h"
 #include "lambent/field_options.h"
+#include "lambent/field_updates.h"
 #include "lambent/help.h"
 #include "lambent/job.h"
 #include "lambent/memory_check.h"

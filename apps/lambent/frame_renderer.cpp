@@ -16,6 +16,7 @@
 #include "core/image/tone_map.h"
 #include "core/memory.h"
 #include "lambent/console.h"
+#include "lambent/field_updates.h"
 #include "lambent/memory_check.h"
 #include "lambent/parse.h"
 #include "lambent/progress_bar.h"

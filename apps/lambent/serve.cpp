@@ -12,6 +12,7 @@
 #include "lambent/command_files.h"
 #include "lambent/commands.h"
 #include "lambent/console.h"
+#include "lambent/field_updates.h"
 #include "lambent/help.h"
 #include "lambent/input.h"
 #include "lambent/interrupts.h"

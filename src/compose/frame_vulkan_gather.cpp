@@ -145,7 +145,7 @@ void FramePassesVulkan::gather() {
   shading.max_albedo = field.settings().max_albedo;
   shading.salt = sample_;
   shading.seed = request_->settings.seed;
-  shading.candidates = kGatherCandidates;
+  shading.candidates = kSecondaryCandidates;
   shading.follow_mirrors = true;
   ShadeHitsSettings secondary_shading = shading;
   secondary_shading.salt ^= kSecondarySalt;

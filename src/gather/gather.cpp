@@ -190,7 +190,7 @@ std::uint64_t gather_irradiance(const World& world, const IrradianceField& field
   shading.cone_width = kHemisphereConeWidth / sqrt(static_cast<float>(request.rays_per_pixel));
   shading.max_albedo = field.settings().max_albedo;
   shading.seed = request.seed;
-  shading.candidates = kGatherCandidates;
+  shading.candidates = kSecondaryCandidates;
   shading.follow_mirrors = true;
   std::atomic<std::uint64_t> traced = 0;
   parallel_chunks(request.seen.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {

@@ -12,11 +12,6 @@
 
 LAMBENT_BEGIN
 
-// Candidates of emitters at the hits of gathering rays; see candidates_per_sample. With four,
-// gathers take 1.2 to 1.4 times as long; they have .3 % less noise in cornell, 2 % less in a street
-// under 40 lamps, and 17 % less in an office whose ceiling is of light panels.
-const uint kGatherCandidates = 2u;
-
 /// Direction of a ray, with density cosine over pi about the frame's normal.
 LAMBENT_FN vec3 gather_direction(Frame frame, vec2 point) {
   return to_world(frame, sample_cosine_hemisphere(point));

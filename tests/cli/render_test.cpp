@@ -171,7 +171,7 @@ TEST_F(Render, UpdatesTheFieldUntilItIsCalmWhereQualityIsHigh) {
 TEST_F(Render, TellsHowMuchNoiseIsLeftInTheField) {
   const std::string picture = "cornell-spot --size 8x8 --probes 3x3x3 --gather 0 ";
   EXPECT_THAT(render(picture + "--rays 16", exr).errors,
-              ContainsRegex("indirect light still has [0-9]+ % of noise after 32 updates"));
+              ContainsRegex("indirect light still has [0-9]+ % of noise after 80 updates"));
   EXPECT_THAT(render(picture, exr).errors, Not(HasSubstr("noise")));
 }
 

@@ -241,7 +241,7 @@ ShadeHitsSettings training_shading(const FieldSettings& settings, uint number) {
   ShadeHitsSettings shading;
   shading.cone_width = kHemisphereConeWidth / sqrt(static_cast<float>(kTrainingRays));
   shading.max_albedo = settings.max_albedo;
-  shading.candidates = kTrainingCandidates;
+  shading.candidates = kSecondaryCandidates;
   shading.follow_mirrors = true;
   shading.salt = number;
   shading.seed = ~settings.seed;

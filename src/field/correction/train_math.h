@@ -24,11 +24,6 @@ const uint kSettledTrainingStride = 128u;
 const uint kFilledTraining = 5u;
 const uint kSettledTraining = 24u;
 
-// Candidates of emitters at the hits of gathers; see candidates_per_sample. With four, gathers have
-// hardly less noise (see kGatherCandidates of src/gather/gather_math.h, which is about the same
-// rays), and take longer.
-const uint kTrainingCandidates = 2u;
-
 // The purposes of the random numbers of training. Each purpose has a sequence of its own.
 const uint kTrainingPicks = 0x7261701u;
 const uint kTrainingShifts = 0x7261702u;

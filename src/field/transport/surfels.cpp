@@ -106,6 +106,7 @@ ShadeHitsSettings surfel_shading(const FieldSettings& settings, const RaySet& ra
       2.0f * sqrt(4.0f / static_cast<float>(rays.rays())) * exp2(settings.texture_lod_bias);
   shading.max_albedo = settings.max_albedo;
   shading.emissive_samples = settings.emissive_samples;
+  shading.candidates = kSecondaryCandidates;
   shading.solid_sides = solid_sides;
   shading.follow_mirrors = true;
   shading.salt = rays.update;
