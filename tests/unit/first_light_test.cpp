@@ -223,6 +223,23 @@ TEST(FirstLight, IsWhatSoftBoxesSendWhereTheyLightAll) {
   EXPECT_NE(choose_first_light(World(scene), camera), FirstLight::scene);
 }
 
+TEST(FirstLight, IsWhatNeonTubesSendAtNight) {
+  // An alley whose walls and ground are 200 times as dark as the tubes on them
+  Scene scene = scene_of({box_mesh({-3, -0.2f, -20}, {3, 0, 2}), box_mesh({-3, 0, -20}, {-2, 8, 2}),
+                          box_mesh({2, 0, -20}, {3, 8, 2}), box_mesh({-3, 0, -21}, {3, 8, -20})});
+  scene.materials.push_back(test::lambert(glm::vec3(0.0f), glm::vec3(25.0f)));
+  for (int tube = 0; tube < 8; ++tube) {
+    const float side = tube % 2 == 0 ? -1.0f : 1.0f, z = -2.0f * static_cast<float>(tube) - 2.0f;
+    test::add(scene, test::quad({side * 1.8f, 2, z}, {0, 0, 0.5f}, {0, 0.25f, 0}, 1));
+  }
+  const World world(scene);
+  const Camera camera = look_at({0, 1.5f, 1.5f}, {0, 1.5f, -9}, 0.9f);
+  const ViewLight light = measure_view_light(world, sample_view(world, camera));
+  ASSERT_LT(light.emission_ratio, 0.01f) << light.lit_by_emission;
+  EXPECT_EQ(choose_first_light(world, camera), FirstLight::scene)
+      << light.emission_ratio << " " << light.lit_by_emission;
+}
+
 TEST(FirstLight, LampsReachMostOfWhatTheCameraSees) {
   for (const char* name : {"two-rooms", "house"}) {
     Scene scene = unlit(name);
