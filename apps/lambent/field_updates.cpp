@@ -28,13 +28,11 @@ constexpr double kCalmError = 0.025;
 constexpr double kMaxCalmError = 0.04;
 // Fields that do not become calm end after this many updates,
 constexpr int kMaxCalmUpdates = 80;
-// or probe rays. Gathering rays find most of the light that few of a probe's rays find by
-// themselves: in ten such scenes, three times as many rays brought `indirect` at most .3 % nearer
-// to the reference (FLIP).
+// or probe rays, about fifty updates of a grid of the default size. What few of a probe's rays
+// find, gathering rays find by themselves, and they meet more probes where there are more.
 constexpr std::uint64_t kMaxCalmRays = 8'000'000;
 // The first updates trace all probes, which they move away from surfaces; later ones trace this
-// share of the rays, from the noisiest probes. In a bathroom lit by a patch of sun, FLIP of
-// `indirect` is then .170, and .178 with eight full updates in place of three, in the same time.
+// share of the rays, from the noisiest probes. docs/performance.md has what these limits save.
 constexpr int kFullUpdates = 3;
 constexpr double kCalmRays = 0.5;
 
