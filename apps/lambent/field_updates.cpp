@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace lambent::cli {
 namespace {
@@ -28,32 +30,39 @@ constexpr double kCalmError = 0.025;
 constexpr double kMaxCalmError = 0.04;
 // Fields that do not become calm end after this many updates,
 constexpr int kMaxCalmUpdates = 80;
-// or probe rays, about fifty updates of a grid of the default size. What few of a probe's rays
-// find, gathering rays find by themselves, and they meet more probes where there are more.
+// or once probes have traced this many rays: 14 updates of all probes of a grid of the default
+// size. What few of a probe's rays find, gathering rays find by themselves, and they meet more
+// probes where there are more. Pictures without a gather show the noise of the probes: there, four
+// times as many halve it.
 constexpr std::uint64_t kMaxCalmRays = 8'000'000;
-// The first updates trace all probes, which they move away from surfaces; later ones trace this
-// share of the rays, from the noisiest probes. docs/performance.md has what these limits save.
+constexpr std::uint64_t kMaxCalmRaysUngathered = 4 * kMaxCalmRays;
+// The first updates trace as many rays as the settings say, later ones this share of them, from
+// the probes with the most noise near the viewer. docs/performance.md has what that saves, and why
+// the first are three.
 constexpr int kFullUpdates = 3;
-constexpr double kCalmRays = 0.5;
+constexpr double kLaterRayShare = 0.5;
 
 using AfterUpdate = std::function<void(const FieldProgress&)>;
 
-/// Conditions for the end of updates: the light changes little, or has little noise, within limits.
+/// How far a field is updated: until its light changes little, or has little noise, within limits.
 struct UpdateLimits {
-  int least;
-  int most;
-  double change = 0.0;         // relative change of the light by an update; 0: no condition
-  double error = 0.0;          // relative standard error of the light; 0: no condition
-  std::uint64_t max_rays = 0;  // after which the field ends as it is; 0: no condition
-  int full = 0;                // updates after which others trace kCalmRays of the rays; 0: none do
+  int least;  ///< Number of updates, including earlier ones, before which no other condition holds.
+  int most;   ///< Number of updates, including earlier ones.
+  double change = 0.0;  ///< Relative change of the light by an update; 0: no condition.
+  double error = 0.0;   ///< Relative standard error of the light; 0: no condition.
+  /// Number of probe rays after which the field ends as it is; 0: no condition.
+  std::uint64_t max_rays = 0;
+  /// Number of updates after which the others trace kLaterRayShare of the rays; 0: none do.
+  int full_updates = 0;
 };
 
-/// The share of the updates that have been made, as far as it can be known before the last one.
+/// The share of the updates that have been made, 0 to 1, if the light does not become calm before.
 double share_done(const UpdateLimits& limits, int updates, std::uint64_t rays) {
-  const double of_updates = static_cast<double>(updates) / limits.most;
-  if (limits.max_rays == 0) return of_updates;
+  const double of_most = static_cast<double>(updates) / limits.most;
+  if (limits.max_rays == 0) return of_most;
+  const double of_least = static_cast<double>(updates) / limits.least;
   const double of_rays = static_cast<double>(rays) / static_cast<double>(limits.max_rays);
-  return std::max(of_updates, std::min(of_rays, static_cast<double>(updates) / limits.least));
+  return std::max(of_most, std::min({1.0, of_least, of_rays}));
 }
 
 /// Updates a field that has had `before` updates already, which are included in the counts.
@@ -71,18 +80,19 @@ FieldProgress run_updates(const World& world, int before, const UpdateLimits& li
            (reached.change < limits.change ||
             (limits.error > 0.0 && field.standard_error() < limits.error));
   };
-  const auto costly = [&] {
+  const auto rays_spent = [&] {
     return limits.max_rays > 0 && reached.updates >= limits.least &&
            sum.probe_rays >= limits.max_rays;
   };
-  const auto done = [&] { return reached.updates >= limits.most || calm() || costly(); };
+  const auto done = [&] { return reached.updates >= limits.most || calm() || rays_spent(); };
   UpdateRequest next = request;
   while (!done()) {
     last = field.update(world, next);
     ++reached.updates;
-    if (limits.full > 0 && reached.updates == limits.full) {
+    if (limits.full_updates > 0 && reached.updates == limits.full_updates) {
+      const double rays = kLaterRayShare * static_cast<double>(last.probe_rays);
       next.ray_budget =
-          static_cast<std::uint64_t>(kCalmRays * static_cast<double>(last.probe_rays));
+          std::max(static_cast<std::uint64_t>(rays), std::uint64_t{1});  // 0: no bound
     }
     reached.change = last.change;
     reached.settled = last.change < kSettledChange;
@@ -137,13 +147,16 @@ FieldProgress update_field(const World& world, int updates, const UpdateRequest&
   return run_updates(world, 0, {updates, updates}, request, field, progress, {}, stats);
 }
 
-FieldProgress calm_field(const World& world, int least, const UpdateRequest& request,
+FieldProgress calm_field(const World& world, int least, bool gathers, const UpdateRequest& request,
                          IrradianceField& field, const ProgressFn& progress,
                          nlohmann::ordered_json& stats) {
   const double ratio = static_cast<double>(field.probes()) / FieldSettings{}.probe_budget;
-  const double calm_error = std::min(kCalmError * std::sqrt(std::max(ratio, 1.0)), kMaxCalmError);
   const UpdateLimits limits{
-      least, std::max(least, kMaxCalmUpdates), 0.0, calm_error, kMaxCalmRays, kFullUpdates};
+      .least = least,
+      .most = std::max(least, kMaxCalmUpdates),
+      .error = std::min(kCalmError * std::sqrt(std::max(ratio, 1.0)), kMaxCalmError),
+      .max_rays = gathers ? kMaxCalmRays : kMaxCalmRaysUngathered,
+      .full_updates = kFullUpdates};
   return run_updates(world, 0, limits, request, field, progress, {}, stats);
 }
 

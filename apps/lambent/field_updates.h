@@ -26,11 +26,13 @@ FieldProgress update_field(const World& world, int updates, const UpdateRequest&
                            IrradianceField& field, const ProgressFn& progress,
                            nlohmann::ordered_json& stats);
 
-/// Updates the field at least `least` times, until the standard error of its light is below 2.5 %
-/// (up to 4 % with more probes than by default): otherwise noise from small bright patches is
-/// visible in mirrors and on walls. Ends without that after 80 updates or 8 million probe rays.
-/// Updates after the third trace half as many rays, from the noisiest probes.
-FieldProgress calm_field(const World& world, int least, const UpdateRequest& request,
+/// Updates the field until the standard error of its light is below 2.5 % (up to 4 % with more
+/// probes than by default): otherwise noise from small bright patches is visible in mirrors and on
+/// walls. Ends without that after 80 updates, or once probes have traced 8 million rays, and 32
+/// million unless the picture `gathers` light; but never before `least` updates. Updates after the
+/// third trace half as many rays, from the probes with the most noise, unless
+/// FieldSettings::max_bounces is 0 or more: single bounces need all probes.
+FieldProgress calm_field(const World& world, int least, bool gathers, const UpdateRequest& request,
                          IrradianceField& field, const ProgressFn& progress,
                          nlohmann::ordered_json& stats);
 

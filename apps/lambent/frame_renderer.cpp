@@ -143,8 +143,9 @@ Expected<void> FrameRenderer::follow(const Camera& camera, Json& stats) {
   } else {
     const UpdateRequest request{0, 0.0, viewer};
     if (wants_calm_field(options_)) {
+      const bool gathers = frame_settings(options_, size_).gather_rays > 0;
       const FieldProgress reached =
-          calm_field(world_, kFewUpdates, request, *field_, progress_, stats);
+          calm_field(world_, kFewUpdates, gathers, request, *field_, progress_, stats);
       tell_noise(reached, field_->standard_error());
     } else {
       update_field(world_, first_updates(options_), request, *field_, progress_, stats);

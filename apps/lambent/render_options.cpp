@@ -94,7 +94,8 @@ void add_field_render_options(CLI::App& command, RenderOptions& o) {
   command
       .add_option("--updates", o.updates,
                   "Updates of the field before the frame (8; of pictures of --quality high up to "
-                  "80, until its standard error is below 2.5 %, 4 % with many probes)")
+                  "80 or 8 million rays, until its standard error is below 2.5 %, 4 % with many "
+                  "probes)")
       ->check(whole_number(0, kMaxUpdates))
       ->type_name("N");
   command.add_flag("--converge", o.converge, "Or update until the field has settled")

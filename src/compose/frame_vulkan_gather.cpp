@@ -5,8 +5,8 @@
 
 #include "compose/frame_vulkan.h"
 #include "field/probes/volumes.h"
-#include "gather/gather_math.h"
 #include "lambent/field.h"
+#include "raytracing/emitter_sampling.h"
 
 namespace lambent {
 namespace {

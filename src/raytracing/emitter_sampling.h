@@ -132,10 +132,11 @@ LAMBENT_FN bool lies_on_triangle(vec3 position_ws, vec3 corner_ws, vec3 edge1, v
 const uint kCandidates = 4u;
 const uint kMinCandidates = 2u;
 
-/// The same total at hits of probe rays and of gathering rays. With kCandidates, gathers take 1.2
-/// to 1.4 times as long; they have .3 % less noise in cornell, 2 % less in a street under 40 lamps,
-/// and 17 % less in an office whose ceiling is of light panels. Shading of surfels takes 1.2 to 1.8
-/// times as long, and as many more rays of probes bring as much.
+/// Total number of candidates at hits of probe rays, of gathering rays and of rays that train
+/// corrections. With kCandidates, gathers take 1.2 to 1.4 times as long; they have .3 % less noise
+/// in cornell, 2 % less in a street under 40 lamps, and 17 % less in an office whose ceiling is of
+/// light panels. Shading of surfels takes 1.2 to 1.8 times as long; more rays from the probes
+/// reduce noise as much in that time (docs/performance.md).
 const uint kSecondaryCandidates = 2u;
 
 /// Number of candidates for one sample of the light tree, at least kMinCandidates: an equal share

@@ -168,6 +168,18 @@ TEST_F(Render, UpdatesTheFieldUntilItIsCalmWhereQualityIsHigh) {
   EXPECT_EQ(updates_of("--quality high --updates 3")["updates"], 3);
 }
 
+TEST_F(Render, TracesHalfOfTheRaysAfterTheFirstUpdatesOfAPicture) {
+  const std::string stats = directory.file("stats.json");
+  const auto rays_of = [&](const std::string& options) {
+    const std::string picture = "cornell-spot --size 8x8 --probes 4x4x4 --rays 16 --gather 0 ";
+    EXPECT_EQ(render(picture + options + " --stats " + stats, exr).status, 0);
+    return nlohmann::json::parse(bytes_of(stats))["probe_rays"].get<double>();
+  };
+  // 80 updates, of which three are full
+  const double full = rays_of("--updates 3") / 3.0;
+  EXPECT_NEAR(rays_of("--quality high") / full, 3.0 + 77.0 * 0.5, 4.0);
+}
+
 TEST_F(Render, TellsHowMuchNoiseIsLeftInTheField) {
   const std::string picture = "cornell-spot --size 8x8 --probes 3x3x3 --gather 0 ";
   EXPECT_THAT(render(picture + "--rays 16", exr).errors,

@@ -223,21 +223,29 @@ TEST(FirstLight, IsWhatSoftBoxesSendWhereTheyLightAll) {
   EXPECT_NE(choose_first_light(World(scene), camera), FirstLight::scene);
 }
 
-TEST(FirstLight, IsWhatNeonTubesSendAtNight) {
-  // An alley whose walls and ground are 200 times as dark as the tubes on them
+/// An alley that is open above, with tubes of this height [m] on its walls.
+Scene alley(float tube_height) {
   Scene scene = scene_of({box_mesh({-3, -0.2f, -20}, {3, 0, 2}), box_mesh({-3, 0, -20}, {-2, 8, 2}),
                           box_mesh({2, 0, -20}, {3, 8, 2}), box_mesh({-3, 0, -21}, {3, 8, -20})});
   scene.materials.push_back(test::lambert(glm::vec3(0.0f), glm::vec3(25.0f)));
   for (int tube = 0; tube < 8; ++tube) {
     const float side = tube % 2 == 0 ? -1.0f : 1.0f, z = -2.0f * static_cast<float>(tube) - 2.0f;
-    test::add(scene, test::quad({side * 1.8f, 2, z}, {0, 0, 0.5f}, {0, 0.25f, 0}, 1));
+    test::add(scene, test::quad({side * 1.8f, 2, z}, {0, 0, 0.5f}, {0, tube_height, 0}, 1));
   }
-  const World world(scene);
+  return scene;
+}
+
+TEST(FirstLight, IsWhatNeonTubesSendAtNight) {
   const Camera camera = look_at({0, 1.5f, 1.5f}, {0, 1.5f, -9}, 0.9f);
-  const ViewLight light = measure_view_light(world, sample_view(world, camera));
-  ASSERT_LT(light.emission_ratio, 0.01f) << light.lit_by_emission;
-  EXPECT_EQ(choose_first_light(world, camera), FirstLight::scene)
-      << light.emission_ratio << " " << light.lit_by_emission;
+  const World bright(alley(0.25f)), dim(alley(0.1f));
+  ASSERT_LT(enclosure(bright, camera), 0.75f);
+  // Walls and ground are 200 times as dark as the tubes
+  const ViewLight light = measure_view_light(bright, sample_view(bright, camera));
+  ASSERT_LT(light.emission_ratio, 0.01f);
+  ASSERT_GT(light.lit_by_emission, 0.9f);
+  EXPECT_EQ(choose_first_light(bright, camera), FirstLight::scene) << light.emission_ratio;
+  // Beside smaller ones, of which less than half the light comes, they would not be seen
+  EXPECT_EQ(choose_first_light(dim, camera), FirstLight::sun);
 }
 
 TEST(FirstLight, LampsReachMostOfWhatTheCameraSees) {

@@ -15,7 +15,8 @@ const int kTrainingRays = 8;
 
 // A gather starts at one in this many of an update's surfels, and a second one at the hit of one of
 // its rays, since surfels leave out surfaces that no probe ray reaches. The first updates fill the
-// coarse levels, and later ones only refine the estimates.
+// coarse levels, also where some of them trace the noisiest probes alone (docs/performance.md), and
+// later ones only refine the estimates.
 const uint kFirstTrainingStride = 16u;
 const uint kTrainingStride = 32u;
 const uint kSettledTrainingStride = 128u;
