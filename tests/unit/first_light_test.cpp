@@ -237,7 +237,8 @@ Scene alley(float tube_height) {
 
 TEST(FirstLight, IsWhatNeonTubesSendAtNight) {
   const Camera camera = look_at({0, 1.5f, 1.5f}, {0, 1.5f, -9}, 0.9f);
-  const World bright(alley(0.25f)), dim(alley(0.1f));
+  const Scene bright_alley = alley(0.25f), dim_alley = alley(0.1f);
+  const World bright(bright_alley), dim(dim_alley);
   ASSERT_LT(enclosure(bright, camera), 0.75f);
   // Walls and ground are 200 times as dark as the tubes
   const ViewLight light = measure_view_light(bright, sample_view(bright, camera));
