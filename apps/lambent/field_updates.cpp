@@ -32,13 +32,13 @@ constexpr double kMaxCalmError = 0.04;
 constexpr int kMaxCalmUpdates = 80;
 // or once probes have traced this many rays: 14 updates of all probes of a grid of the default
 // size. What few of a probe's rays find, gathering rays find by themselves, and they meet more
-// probes where there are more. Pictures without a gather show the noise of the probes: there, four
-// times as many halve it.
+// probes where there are more. Pictures without a gather show the noise of the probes, which four
+// times as many rays halve.
 constexpr std::uint64_t kMaxCalmRays = 8'000'000;
 constexpr std::uint64_t kMaxCalmRaysUngathered = 4 * kMaxCalmRays;
 // The first updates trace as many rays as the settings say, later ones this share of them, from
-// the probes with the most noise near the viewer. docs/performance.md has what that saves, and why
-// the first are three.
+// the probes with the most noise near the viewer. docs/performance.md tells what that saves, and
+// what two full updates in place of three cost.
 constexpr int kFullUpdates = 3;
 constexpr double kLaterRayShare = 0.5;
 

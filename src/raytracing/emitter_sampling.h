@@ -135,8 +135,8 @@ const uint kMinCandidates = 2u;
 /// Total number of candidates at hits of probe rays, of gathering rays and of rays that train
 /// corrections. With kCandidates, gathers take 1.2 to 1.4 times as long; they have .3 % less noise
 /// in cornell, 2 % less in a street under 40 lamps, and 17 % less in an office whose ceiling is of
-/// light panels. Shading of surfels takes 1.2 to 1.8 times as long; more rays from the probes
-/// reduce noise as much in that time (docs/performance.md).
+/// light panels. Shading of surfels takes 1.2 to 1.8 times as long, and pictures differ little
+/// (docs/performance.md).
 const uint kSecondaryCandidates = 2u;
 
 /// Number of candidates for one sample of the light tree, at least kMinCandidates: an equal share

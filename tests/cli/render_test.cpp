@@ -175,9 +175,10 @@ TEST_F(Render, TracesHalfOfTheRaysAfterTheFirstUpdatesOfAPicture) {
     EXPECT_EQ(render(picture + options + " --stats " + stats, exr).status, 0);
     return nlohmann::json::parse(bytes_of(stats))["probe_rays"].get<double>();
   };
-  // 80 updates, of which three are full
-  const double full = rays_of("--updates 3") / 3.0;
-  EXPECT_NEAR(rays_of("--quality high") / full, 3.0 + 77.0 * 0.5, 4.0);
+  // Of 80 updates three are full. The others trace half as many rays, or fewer: whole probes
+  const double full = rays_of("--updates 3") / 3.0, all = rays_of("--quality high") / full;
+  EXPECT_LE(all, 3.0 + 77.0 * 0.5);
+  EXPECT_GT(all, 3.0 + 77.0 * 0.45);
 }
 
 TEST_F(Render, TellsHowMuchNoiseIsLeftInTheField) {

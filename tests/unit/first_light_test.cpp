@@ -239,13 +239,13 @@ TEST(FirstLight, IsWhatNeonTubesSendAtNight) {
   const Camera camera = look_at({0, 1.5f, 1.5f}, {0, 1.5f, -9}, 0.9f);
   const Scene bright_alley = alley(0.25f), dim_alley = alley(0.1f);
   const World bright(bright_alley), dim(dim_alley);
-  ASSERT_LT(enclosure(bright, camera), 0.75f);
+  ASSERT_LT(enclosure(bright, camera), 0.75f) << "counts as a room, where darker walls will do";
   // Walls and ground are 200 times as dark as the tubes
   const ViewLight light = measure_view_light(bright, sample_view(bright, camera));
   ASSERT_LT(light.emission_ratio, 0.01f);
   ASSERT_GT(light.lit_by_emission, 0.9f);
   EXPECT_EQ(choose_first_light(bright, camera), FirstLight::scene) << light.emission_ratio;
-  // Beside smaller ones, of which less than half the light comes, they would not be seen
+  // Smaller tubes send less than half of that light: beside them the walls would look black
   EXPECT_EQ(choose_first_light(dim, camera), FirstLight::sun);
 }
 
