@@ -141,6 +141,48 @@ TEST(Exposure, ShowsWhatStandsInSpotLights) {
   EXPECT_GE(std::log2(spot / 0.18), 3.0 - 0.07);
 }
 
+/// Makes the first `share` of a dark stage shine `stops` more than it, and send light in `layer`.
+LayeredImage dark_stage_with(double share, double stops, const char* layer, float normal = 0.5f) {
+  LayeredImage frame = stage(0.0, 0.1f);
+  const int edge = frame.find("")->width;
+  frame.require("normal", 3) = grey(normal, edge);
+  frame.require("emission", 3) = grey(0.0f, edge);
+  frame.require("transmission", 3) = grey(0.0f, edge);
+  const auto count = 3 * static_cast<std::size_t>(share * edge * edge);
+  const float bright = 0.01f * static_cast<float>(std::exp2(stops));
+  std::fill_n(frame.find("")->pixels.begin(), count, bright);
+  std::fill_n(frame.find(layer)->pixels.begin(), count, bright);
+  std::fill_n(frame.find("albedo")->pixels.begin(), count, 0.0f);
+  return frame;
+}
+
+// Signs that shine in the night leave it dark; a bulb, a lit room's tubes, and a sky do not.
+TEST(Exposure, LeavesAStreetOfNeonSignsDark) {
+  // What counts as 3 stops brighter than the median raises the typical luminance
+  const auto lowered = [](double share, double stops, float normal = 0.5f) {
+    return -std::log2(0.01 / 0.18 *
+                      display_exposure(dark_stage_with(share, stops, "emission", normal))) -
+           3.0 * share;
+  };
+  EXPECT_NEAR(lowered(0.03, 7.5 + 0.09), 0.5 * (7.5 - 5.0), 0.1);
+  EXPECT_NEAR(lowered(0.03, 20.0), 2.0, 0.1) << "at most 2 stops";
+  EXPECT_NEAR(lowered(0.015, 7.5), 0.0, 0.1) << "bulb";
+  EXPECT_NEAR(lowered(0.03, 5.0), 0.0, 0.1) << "tubes";
+  EXPECT_NEAR(lowered(0.03, 7.5, 0.0f), 0.0, 0.1) << "sky";
+}
+
+// What stands in a case of glass that fills the picture is what the picture shows; windows are not.
+TEST(Exposure, ShowsWhatIsInACaseOfGlass) {
+  const auto shown = [](double share) {
+    const LayeredImage frame = dark_stage_with(share, 6.0, "transmission");
+    return std::log2(0.64 / 0.18 * display_exposure(frame));
+  };
+  // Half as many pixels as surfaces at most, each 3 stops brighter than the median
+  EXPECT_NEAR(shown(0.4), 6.0 - 3.0 / 3.0, 0.1);
+  // The median is in the case, and the stage counts as 5 stops darker
+  EXPECT_NEAR(shown(0.6), 0.4 * 5.0, 0.1);
+}
+
 // However wide a sky is, it counts at most half as much as the land below it.
 TEST(Exposure, DoesNotFollowAWideSky) {
   // The sky is 7 stops brighter, and counts as 3 stops brighter than the median

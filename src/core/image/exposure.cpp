@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "core/image/mid_grey.h"
@@ -27,6 +28,11 @@ constexpr double kMetalReflectance = 0.5, kLeastAlbedo = 0.01;
 // exposure is lowered, but by no more than kMaxLowered [stops], so that a patch of sun does not
 // make a room dark.
 constexpr double kBrightShare = 0.1, kBright = 3.0, kMaxLowered = 2.0;
+// Lamps that cover at least kGlareShare of a picture, more than a bulb does, may be brighter than
+// kGlare [stops] above mid-grey: the tubes of a lit room are 4 to 6. Of what is above, as neon
+// signs in a dark street are, kGlareLowered lowers the exposure: the street looks dark, as by
+// night.
+constexpr double kGlareShare = 0.02, kGlare = 5.0, kGlareLowered = 0.5;
 // What is this much darker [stops] than the brightest surfaces that together cover this share of
 // the picture counts as black, a million times below: the night side of a planet beside a ship in
 // the sun. Pictures of which surfaces are not known have no black.
@@ -49,6 +55,8 @@ const Image* layer_of(const LayeredImage& frame, const char* name) {
   return image != nullptr && image->channels >= 3 ? image : nullptr;
 }
 
+enum class Shown { kSurface, kLamp, kThroughGlass, kBackground };
+
 /// What tells reflecting surfaces from the sky, lamps, and what is seen through glass.
 struct SurfaceLayers {
   explicit SurfaceLayers(const LayeredImage& frame)
@@ -58,16 +66,19 @@ struct SurfaceLayers {
         transmission(layer_of(frame, "transmission")) {}
 
   /// `sent`: the pixel's luminance.
-  bool is_surface(int x, int y, float sent) const {
-    if (is_lamp(x, y, sent)) return false;
-    if (is_lit(albedo->at(x, y))) return true;
-    return is_hit(x, y) && !shines(emission, x, y) && !shines(transmission, x, y);
+  Shown at(int x, int y, float sent) const {
+    const bool hit = is_hit(x, y);
+    if (is_emitter(x, y, sent)) return hit ? Shown::kLamp : Shown::kBackground;
+    if (is_lit(albedo->at(x, y))) return Shown::kSurface;
+    if (!hit || emission == nullptr || transmission == nullptr) return Shown::kBackground;
+    if (is_lit(transmission->at(x, y))) return Shown::kThroughGlass;
+    return is_lit(emission->at(x, y)) ? Shown::kBackground : Shown::kSurface;
   }
 
   const Image *albedo, *normal, *emission, *transmission;
 
  private:
-  bool is_lamp(int x, int y, float sent) const {
+  bool is_emitter(int x, int y, float sent) const {
     if (emission == nullptr) return false;
     const float* e = emission->at(x, y);
     return luminance(vec3(e[0], e[1], e[2])) > kMaxEmitted * sent;
@@ -76,9 +87,6 @@ struct SurfaceLayers {
     if (normal == nullptr) return false;
     const float* n = normal->at(x, y);
     return n[0] != 0.0f || n[1] != 0.0f || n[2] != 0.0f;
-  }
-  static bool shines(const Image* layer, int x, int y) {
-    return layer == nullptr || is_lit(layer->at(x, y));
   }
 };
 
@@ -98,6 +106,25 @@ double albedo_stops(const float* albedo) {
   const auto diffuse = static_cast<double>(luminance(vec3(albedo[0], albedo[1], albedo[2])));
   const double level = diffuse + kMetalReflectance * std::max(0.0, 1.0 - diffuse / kLeastAlbedo);
   return level > kMidGrey ? kAlbedoShare * std::log2(level / kMidGrey) : 0.0;
+}
+
+/// The share with which a pixel of the background counts beside these numbers of pixels.
+double background_weight(double surfaces, double background) {
+  const double most =
+      kMostBackground * std::max(surfaces, kLeastSurfaces * (surfaces + background));
+  return most > 0.0 && background > most ? most / background : 1.0;
+}
+
+template <class Bins>
+double total_from(const Bins& bins, std::size_t first) {
+  return static_cast<double>(std::accumulate(bins.begin() + static_cast<std::ptrdiff_t>(first),
+                                             bins.end(), std::uint64_t{0}));
+}
+
+template <class Bins>
+Bins plus(Bins a, const Bins& b) {
+  std::transform(a.begin(), a.end(), b.begin(), a.begin(), std::plus<>());
+  return a;
 }
 
 }  // namespace
@@ -120,12 +147,22 @@ void LuminanceHistogram::add(const LayeredImage& rows) {
       const float sent = luminance_at(linear, x, y);
       const double stops = stops_of(sent);
       if (!std::isfinite(stops)) continue;
-      if (!layers.is_surface(x, y, sent)) {
-        ++background_[bin_of(stops)];
-        continue;
+      const std::size_t bin = bin_of(stops);
+      switch (layers.at(x, y, sent)) {
+        case Shown::kSurface:
+          ++surfaces_[bin];
+          ++counts_[bin_of(stops - albedo_stops(layers.albedo->at(x, y)))];
+          break;
+        case Shown::kLamp:
+          ++lamps_[bin];
+          break;
+        case Shown::kThroughGlass:
+          ++through_glass_[bin];
+          break;
+        case Shown::kBackground:
+          ++background_[bin];
+          break;
       }
-      ++surfaces_[bin_of(stops)];
-      ++counts_[bin_of(stops - albedo_stops(layers.albedo->at(x, y)))];
     }
   }
 }
@@ -139,36 +176,29 @@ double LuminanceHistogram::stop_of(std::size_t bin) {
   return kMinStop + (static_cast<double>(bin) + 0.5) / kBinsPerStop;
 }
 
-double LuminanceHistogram::bright_stop(double pixels) const {
+double LuminanceHistogram::bright_stop(const Bins& bins, double pixels) {
   double above = 0.0;
   std::size_t bin = kBins;
-  while (bin > 0 && above < pixels) above += static_cast<double>(surfaces_[--bin]);
+  while (bin > 0 && above < pixels) above += static_cast<double>(bins[--bin]);
   return above < pixels ? kMinStop : stop_of(bin);
 }
 
-double LuminanceHistogram::background_weight(std::size_t first) const {
-  const auto all = [first](const std::array<std::uint64_t, kBins>& counts) {
-    return static_cast<double>(std::accumulate(counts.begin() + static_cast<std::ptrdiff_t>(first),
-                                               counts.end(), std::uint64_t{0}));
-  };
-  const double surfaces = all(counts_), background = all(background_);
-  const double most =
-      kMostBackground * std::max(surfaces, kLeastSurfaces * (surfaces + background));
-  return most > 0.0 && background > most ? most / background : 1.0;
-}
-
 float LuminanceHistogram::stops() const {
-  double pixels = 0.0;
-  for (std::size_t bin = 0; bin < kBins; ++bin) {
-    pixels += static_cast<double>(counts_[bin] + background_[bin]);
-  }
-  const std::size_t first = bin_of(bright_stop(kBrightestShare * pixels) - kBlack);
-  const double weight = background_weight(first);
+  Bins counted = counts_, surfaces = surfaces_, background = plus(background_, lamps_);
+  // What is seen through glass is the picture's subject where it is most of it: a display case
+  const bool is_subject = total_from(through_glass_, 0) > total_from(surfaces_, 0);
+  if (is_subject) surfaces = plus(surfaces, through_glass_);
+  Bins& seen_as = is_subject ? counted : background;
+  seen_as = plus(seen_as, through_glass_);
+
+  const double pixels = total_from(counted, 0) + total_from(background, 0);
+  const std::size_t first = bin_of(bright_stop(surfaces, kBrightestShare * pixels) - kBlack);
+  const double weight =
+      background_weight(total_from(counted, first), total_from(background, first));
   std::array<double, kBins> counts{};
   double total = 0.0;
   for (std::size_t bin = first; bin < kBins; ++bin) {
-    counts[bin] =
-        static_cast<double>(counts_[bin]) + weight * static_cast<double>(background_[bin]);
+    counts[bin] = static_cast<double>(counted[bin]) + weight * static_cast<double>(background[bin]);
     total += counts[bin];
   }
   if (total <= 0.0) return 0.0f;
@@ -182,9 +212,10 @@ float LuminanceHistogram::stops() const {
     sum += counts[bin] * std::clamp(stop_of(bin), low, high);
   }
   const double typical = sum / total;
-  const double too_bright = bright_stop(kBrightShare * pixels) - typical - kBright;
-  return static_cast<float>(std::log2(kMidGrey) - typical -
-                            std::clamp(too_bright, 0.0, kMaxLowered));
+  const double too_bright = bright_stop(surfaces, kBrightShare * pixels) - typical - kBright;
+  const double glare = bright_stop(lamps_, kGlareShare * pixels) - typical - kGlare;
+  const double lowered = std::max(too_bright, kGlareLowered * glare);
+  return static_cast<float>(std::log2(kMidGrey) - typical - std::clamp(lowered, 0.0, kMaxLowered));
 }
 
 float display_stops(const Image& linear) {

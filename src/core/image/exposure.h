@@ -18,7 +18,8 @@ class LuminanceHistogram {
   void add(const Image& linear);
   /// Counts the pixels of rows of a frame. The layers albedo, normal, emission and transmission, if
   /// it has them, say what its pixels show: surfaces have an albedo, or, as metals, a normal, and
-  /// neither emit nor transmit light; all else is background.
+  /// neither emit nor transmit light. Lamps emit most of what they send; glass transmits; all else
+  /// is background.
   void add(const LayeredImage& rows);
 
   /// The exposure that brings the typical luminance of the picture to mid-grey [stops]; 0 where all
@@ -28,25 +29,25 @@ class LuminanceHistogram {
   /// their place, so that a white room looks white. Each pixel counts as no further from the median
   /// than some stops, so that lamps and black corners do not determine the exposure. The sky and
   /// other background count at most half as much as all surfaces together, so that a landscape
-  /// under a wide sky is not dark. Where surfaces far brighter than the typical luminance cover
-  /// more than a tenth of the picture, the exposure is up to two stops less.
+  /// under a wide sky is not dark. What is seen through glass counts as surfaces where it is most
+  /// of the picture. Where surfaces far brighter than the typical luminance cover more than a tenth
+  /// of the picture, or still brighter lamps a fiftieth, the exposure is up to two stops less.
   float stops() const;
 
  private:
   static constexpr int kBinsPerStop = 8;
   static constexpr int kMinStop = -64, kMaxStop = 64;  // luminances beyond are in the end bins
   static constexpr std::size_t kBins = (kMaxStop - kMinStop) * kBinsPerStop;
+  using Bins = std::array<std::uint64_t, kBins>;
   static std::size_t bin_of(double stops);
   static double stop_of(std::size_t bin);
-  /// The luminance [stops] that `pixels` pixels of surfaces reach; the lowest if there are fewer.
-  double bright_stop(double pixels) const;
+  /// The luminance [stops] that `pixels` of these pixels reach; the lowest if there are fewer.
+  static double bright_stop(const Bins& bins, double pixels);
 
-  /// The share with which a pixel of the background counts, by the pixels from bin `first` on.
-  double background_weight(std::size_t first) const;
-
-  // Pixels by the luminance as which they count. Of images without layers, all are in `counts_`.
-  std::array<std::uint64_t, kBins> counts_{}, background_{};
-  std::array<std::uint64_t, kBins> surfaces_{};  // pixels of surfaces, by actual luminance
+  // Pixels of surfaces by the luminance as which they count, and by the actual one. All pixels of
+  // images without layers are in `counts_`, none in the others.
+  Bins counts_{}, surfaces_{};
+  Bins lamps_{}, through_glass_{}, background_{};
 };
 
 /// The exposure of an image of linear radiance [stops].
