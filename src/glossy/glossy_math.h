@@ -28,12 +28,9 @@ const int kReuse = 2;
 // surface, so that neighbours' rays do not help.
 const float kEveryPixelRoughness = 0.5f;
 
-/// Most surfaces that a path hits, counting those that it passes through.
+/// Most surfaces that a path hits, counting those that it passes through. The field supplies what
+/// the coat of the last one reflects. Mirrors that face each other show a blank wall there.
 const uint kMaxPathVertices = 12u;
-
-/// Most coats that a path is reflected from after the pixel's own. Beyond that, the field supplies
-/// the coat's light.
-const uint kMaxCoatBounces = 4u;
 
 /// A path goes on from a coat only where the largest channel of its throughput would stay at least
 /// this.

@@ -20,15 +20,14 @@ LAMBENT_BEGIN
 LAMBENT_FN CoatShares further_coat_shares(Transmission through, Reflectance surface, float n_dot_v,
                                           CoatPath path, uint bounce) {
   CoatShares shares = {0.0f, 0.0f};
+  if (bounce >= kMaxPathVertices) return shares;
   if (path.stage == kStageThroughGlass || is_transmissive(through)) {
-    if (bounce >= kMaxPathVertices) return shares;
     shares.coat = traced_coat_share(surface);
     if (!is_transmissive(through) && has_clearcoat(surface.layers)) {
       shares.clearcoat = traced_coat_share(clearcoat_alone(surface.layers));
     }
     return shares;
   }
-  if (bounce >= kMaxCoatBounces) return shares;
   float share = traced_coat_share(surface);
   if (share <= 0.0f) return shares;
   vec3 carried = path.throughput * specular_albedo(surface, n_dot_v) * share;
