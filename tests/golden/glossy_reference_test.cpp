@@ -134,7 +134,7 @@ TEST(Reflections, OfMirrorsInMirrorsGoOn) {
   const test::Stage stage(room_with_plate(0.0f, true));
   const Metrics metrics = glossy_metrics(pictures_of(stage, 48, 8, 256), 8);
   std::printf("hall of mirrors: mean ratio %.4f\n", metrics.mean_ratio);
-  // With at most four mirrors in a path, whose last one the field lights, it was 1.034
+  // Where paths ended after four reflections, with the field's light, it was 1.034
   EXPECT_GE(metrics.mean_ratio, 0.98);
   EXPECT_LE(metrics.mean_ratio, 1.02);
 }

@@ -55,7 +55,7 @@ const Image* layer_of(const LayeredImage& frame, const char* name) {
   return image != nullptr && image->channels >= 3 ? image : nullptr;
 }
 
-enum class Shown { kSurface, kLamp, kThroughGlass, kBackground };
+enum class Shown { surface, lamp, through_glass, background };
 
 /// What tells reflecting surfaces from the sky, lamps, and what is seen through glass.
 struct SurfaceLayers {
@@ -68,11 +68,11 @@ struct SurfaceLayers {
   /// `sent`: the pixel's luminance.
   Shown at(int x, int y, float sent) const {
     const bool hit = is_hit(x, y);
-    if (is_emitter(x, y, sent)) return hit ? Shown::kLamp : Shown::kBackground;
-    if (is_lit(albedo->at(x, y))) return Shown::kSurface;
-    if (!hit || emission == nullptr || transmission == nullptr) return Shown::kBackground;
-    if (is_lit(transmission->at(x, y))) return Shown::kThroughGlass;
-    return is_lit(emission->at(x, y)) ? Shown::kBackground : Shown::kSurface;
+    if (is_emitter(x, y, sent)) return hit ? Shown::lamp : Shown::background;
+    if (is_lit(albedo->at(x, y))) return Shown::surface;
+    if (!hit || emission == nullptr || transmission == nullptr) return Shown::background;
+    if (is_lit(transmission->at(x, y))) return Shown::through_glass;
+    return is_lit(emission->at(x, y)) ? Shown::background : Shown::surface;
   }
 
   const Image *albedo, *normal, *emission, *transmission;
@@ -149,17 +149,17 @@ void LuminanceHistogram::add(const LayeredImage& rows) {
       if (!std::isfinite(stops)) continue;
       const std::size_t bin = bin_of(stops);
       switch (layers.at(x, y, sent)) {
-        case Shown::kSurface:
+        case Shown::surface:
           ++surfaces_[bin];
           ++counts_[bin_of(stops - albedo_stops(layers.albedo->at(x, y)))];
           break;
-        case Shown::kLamp:
+        case Shown::lamp:
           ++lamps_[bin];
           break;
-        case Shown::kThroughGlass:
+        case Shown::through_glass:
           ++through_glass_[bin];
           break;
-        case Shown::kBackground:
+        case Shown::background:
           ++background_[bin];
           break;
       }
