@@ -150,6 +150,17 @@ TEST(Corrections, AreSmootherWhereGathersAreNoisy) {
   EXPECT_LT(told.deviation, 0.4 * blind.deviation);
 }
 
+TEST(Corrections, KeepTheLightOfNoisyGathers) {
+  // Of eight gathers, seven find nothing and one finds 64 times what is looked up
+  std::vector<CorrectionSample> samples = samples_on_floor(100000, [](float) { return 1.0f; });
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const float looked_up = samples[i].looked_up;
+    samples[i].gathered = i % 8 == 0 ? 64.0f * looked_up : 0.0f;
+    samples[i].variance = 448.0f * looked_up * looked_up;
+  }
+  EXPECT_NEAR(spread_of(taught(samples)).mean, 8.0, 0.2);
+}
+
 TEST(Corrections, CountQuietSamplesAsOneEach) {
   std::vector<CorrectionSample> samples =
       samples_on_floor(20000, [](float x) { return 1.0f + 0.3f * x / 3.0f; });
