@@ -3,6 +3,7 @@
 // together, in few command buffers; pixels and layers stay on the device until the frame is done.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -185,9 +186,9 @@ struct FrameMemory {
   vulkan::Buffer queries, irradiance, mirror_irradiance, subtracted_field, from_maps;
   vulkan::Buffer gathered_variance, emitters, emitter_squares, emitter_specular;
   vulkan::Buffer sky, sky_in_clearcoats;
-  // For the rays that gather the light of some pixels at a time, and secondary gathers at their
-  // hits
-  GatherBuffers gathers, secondary_gathers;
+  // For the rays that gather the light of some pixels at a time, the secondary gathers at their
+  // hits, those at the hits of these, and so on
+  std::array<GatherBuffers, 1 + kMaxSecondaryRays> gathers;
   vulkan::Buffer gathered_hits, gathering_indices, secondary_indices, field_grids;
   // Positions, normals and depths of a band's pixels, and of the small view of reflective shadow
   // maps
@@ -284,7 +285,7 @@ class FramePassesVulkan final : public FramePasses {
                      std::uint32_t rays_per_index, const ShadeHitsSettings& shading);
   // Append the passes of a gather; see gather/gather.cpp
   void draw_gathers(const GatheredPixels& pixels);
-  void draw_secondary_gathers(const GatheredPixels& pixels, int volumes);
+  void draw_secondary_gathers(const GatheredPixels& pixels, int volumes, int follows);
   void sum_gathers(const GatheredPixels& pixels);
   /// Lights the coats of the rows around the band, which see_around_band() has filled in, by rays;
   /// see Glossy::reflect. `sky`: see reflect_band(). Returns whether there are any rays.

@@ -12,7 +12,7 @@ namespace lambent {
 namespace {
 
 // Rays gathered at a time: enough to fill any device, few enough for little memory (about 120 MB).
-constexpr std::uint32_t kGatherRays = 1u << 18;
+constexpr std::uint32_t kGatherRays = 1u << 17;
 
 }  // namespace
 
@@ -24,12 +24,12 @@ void FramePassesVulkan::reserve_gather(std::size_t pixels, std::size_t rays) {
   reserve<uint>(rays, "secondary indices", m.secondary_indices);
   reserve<HitRecord>(rays, "gathered hits", m.gathered_hits);
   reserve<QueryRecord>(rays, "queries", m.queries);
-  for (GatherBuffers* gathers : {&m.gathers, &m.secondary_gathers}) {
-    reserve<RayRecord>(rays, "gathering rays", gathers->rays);
-    reserve<LitPointRecord>(rays, "gathered points", gathers->points);
-    reserve<ShadedHitRecord>(rays, "gathered light", gathers->shaded);
-    reserve<vec3>(rays, "gathered direct light", gathers->direct);
-    reserve<vec3>(rays, "gathered field", gathers->field);
+  for (GatherBuffers& gathers : m.gathers) {
+    reserve<RayRecord>(rays, "gathering rays", gathers.rays);
+    reserve<LitPointRecord>(rays, "gathered points", gathers.points);
+    reserve<ShadedHitRecord>(rays, "gathered light", gathers.shaded);
+    reserve<vec3>(rays, "gathered direct light", gathers.direct);
+    reserve<vec3>(rays, "gathered field", gathers.field);
   }
 }
 
@@ -58,7 +58,7 @@ void FramePassesVulkan::draw_gathers(const GatheredPixels& pixels) {
   add("gather", [=, this, &m = memory_](Recorder& to) {
     const GatherRaysArguments drawn = {{m.points.address()},
                                        {m.surfaces.address()},
-                                       {m.gathers.rays.address()},
+                                       {m.gathers[0].rays.address()},
                                        {m.gathering_indices.address()},
                                        pixels.first,
                                        pixels.count,
@@ -72,19 +72,22 @@ void FramePassesVulkan::draw_gathers(const GatheredPixels& pixels) {
   });
 }
 
-void FramePassesVulkan::draw_secondary_gathers(const GatheredPixels& pixels, int volumes) {
+/// Draws the secondary gathers that follow the rays of the memory before theirs; see gather_salt().
+void FramePassesVulkan::draw_secondary_gathers(const GatheredPixels& pixels, int volumes,
+                                               int follows) {
   add("gather", [=, this, &m = memory_](Recorder& to) {
-    const SecondaryRaysArguments drawn = {{m.gathers.rays.address()},
-                                          {m.gathers.points.address()},
-                                          {m.gathers.shaded.address()},
+    const GatherBuffers& before = m.gathers[follows - 1];
+    const SecondaryRaysArguments drawn = {{before.rays.address()},
+                                          {before.points.address()},
+                                          {before.shaded.address()},
                                           {m.gathering_indices.address()},
                                           {m.field_grids.address()},
-                                          {m.secondary_gathers.rays.address()},
+                                          {m.gathers[follows].rays.address()},
                                           {m.secondary_indices.address()},
                                           volumes,
                                           pixels.rays(),
                                           pixels.rays_per_pixel,
-                                          sample_,
+                                          gather_salt(sample_, follows),
                                           request_->settings.seed,
                                           0u};
     to.run(kernels_.secondary_rays, drawn, pixels.rays());
@@ -94,16 +97,20 @@ void FramePassesVulkan::draw_secondary_gathers(const GatheredPixels& pixels, int
 void FramePassesVulkan::sum_gathers(const GatheredPixels& pixels) {
   const bool filters = request_->settings.denoise;
   add("gather", [=, this, &m = memory_](Recorder& to) {
-    const SecondaryLightArguments replacing = {{m.gathers.points.address()},
-                                               {m.secondary_gathers.rays.address()},
-                                               {m.secondary_gathers.shaded.address()},
-                                               {m.secondary_gathers.direct.address()},
-                                               {m.secondary_gathers.field.address()},
-                                               {m.gathers.field.address()},
-                                               pixels.rays(),
-                                               0u};
-    to.run(kernels_.secondary_light, replacing, pixels.rays());
-    to.barrier();
+    // From the last rays back to the first
+    for (int follows = kMaxSecondaryRays; follows > 0; --follows) {
+      const GatherBuffers &at = m.gathers[follows - 1], &following = m.gathers[follows];
+      const SecondaryLightArguments replacing = {{at.points.address()},
+                                                 {following.rays.address()},
+                                                 {following.shaded.address()},
+                                                 {following.direct.address()},
+                                                 {following.field.address()},
+                                                 {at.field.address()},
+                                                 pixels.rays(),
+                                                 0u};
+      to.run(kernels_.secondary_light, replacing, pixels.rays());
+      to.barrier();
+    }
     // Light to be filtered is stored with that of the other bands
     const std::uint64_t at = filters ? first_traced_pixel() : 0;
     const FilteredPixelsRecord& kept = m.filtered.record;
@@ -114,10 +121,10 @@ void FramePassesVulkan::sum_gathers(const GatheredPixels& pixels) {
     const Vec3Array excess{filters ? kept.excess.address + at * sizeof(vec3) : 0};
     const GatherSumArguments summed = {{m.points.address()},
                                        {m.surfaces.address()},
-                                       {m.gathers.rays.address()},
-                                       {m.gathers.shaded.address()},
-                                       {m.gathers.direct.address()},
-                                       {m.gathers.field.address()},
+                                       {m.gathers[0].rays.address()},
+                                       {m.gathers[0].shaded.address()},
+                                       {m.gathers[0].direct.address()},
+                                       {m.gathers[0].field.address()},
                                        gathered,
                                        variance,
                                        {m.irradiance.address()},
@@ -143,20 +150,21 @@ void FramePassesVulkan::gather() {
   ShadeHitsSettings shading;
   shading.cone_width = kHemisphereConeWidth / std::sqrt(static_cast<float>(rays_per_pixel));
   shading.max_albedo = field.settings().max_albedo;
-  shading.salt = sample_;
   shading.seed = request_->settings.seed;
   shading.candidates = kSecondaryCandidates;
   shading.follow_mirrors = true;
-  ShadeHitsSettings secondary_shading = shading;
-  secondary_shading.salt ^= kSecondarySalt;
 
   for (std::uint32_t first = 0; first < pixels_; first += most) {
     const GatheredPixels pixels{first, std::min(most, pixels_ - first), rays_per_pixel};
     frame_->rays += sampled_pixels(first_pixel_ + first, pixels.count) * rays_per_pixel;
     draw_gathers(pixels);
-    light_gathers(m.gathers, pixels.rays(), m.gathering_indices, rays_per_pixel, shading);
-    draw_secondary_gathers(pixels, static_cast<int>(grids.size()));
-    light_gathers(m.secondary_gathers, pixels.rays(), m.secondary_indices, 1u, secondary_shading);
+    shading.salt = gather_salt(sample_, 0);
+    light_gathers(m.gathers[0], pixels.rays(), m.gathering_indices, rays_per_pixel, shading);
+    for (int follows = 1; follows <= kMaxSecondaryRays; ++follows) {
+      draw_secondary_gathers(pixels, static_cast<int>(grids.size()), follows);
+      shading.salt = gather_salt(sample_, follows);
+      light_gathers(m.gathers[follows], pixels.rays(), m.secondary_indices, 1u, shading);
+    }
     sum_gathers(pixels);
   }
 }

@@ -57,12 +57,15 @@ struct GatheringRays {
     return rays.size() + shade_hits(from.world, rays, hits, shading, indices, scratch, shaded);
   }
 
-  /// Looks up the field where hits reflect its light and `skips` is not 1; empty: all do.
-  void look_up(const GatherSources& from, std::span<const std::uint8_t> skips = {}) {
+  /// Looks up the field where hits reflect its light, but for the hits `skipped`, in rising order.
+  void look_up(const GatherSources& from, std::span<const std::size_t> skipped) {
     std::vector<FieldQuery> queries;
     std::vector<std::size_t> asking;
+    std::size_t next = 0;  // of the skipped hits
     for (std::size_t i = 0; i < shaded.size(); ++i) {
-      if (!reads_field(shaded[i].surface) || (!skips.empty() && skips[i] != 0)) continue;
+      const bool skips = next < skipped.size() && skipped[next] == i;
+      if (skips) ++next;
+      if (skips || !reads_field(shaded[i].surface)) continue;
       queries.push_back(query_at(shaded[i].point));
       asking.push_back(i);
     }
@@ -84,20 +87,7 @@ class GatherChunk {
   }
 
   /// Computes what the rays gather; returns the number of rays traced.
-  std::uint64_t trace(const GatherSources& from) {
-    std::uint64_t traced = first_.trace(from, request_.sample, scratch_);
-    const std::vector<std::uint8_t> gathers_again = add_secondary_rays(from);
-    traced += second_.trace(from, request_.sample ^ kSecondarySalt, scratch_);
-    first_.look_up(from, gathers_again);
-    second_.look_up(from);
-    for (std::size_t k = 0; k < parents_.size(); ++k) {
-      const LitPoint& point = first_.shaded[parents_[k]].point;
-      first_.from_field[parents_[k]] = secondary_irradiance(
-          point.normal_ws, point.geometric_normal_ws, second_.rays[k].direction,
-          second_.shaded[k].surface, second_.shaded[k].direct_irradiance, second_.from_field[k]);
-    }
-    return traced;
-  }
+  std::uint64_t trace(const GatherSources& from) { return trace(from, first_, 0); }
 
   /// Sums up each pixel's rays.
   void sum(GatheredLight& light) const {
@@ -148,33 +138,55 @@ class GatherChunk {
     }
   }
 
-  /// Adds the rays of secondary gathers. Returns 1 for each hit that has one.
-  std::vector<std::uint8_t> add_secondary_rays(const GatherSources& from) {
-    std::vector<std::uint8_t> gathers_again(first_.rays.size(), 0);
+  /// Finds the light that rays bring, which are the gathering ones (`follows` is 0) or those that
+  /// follow them (see gather_salt()). Returns the number of rays traced.
+  std::uint64_t trace(const GatherSources& from, GatheringRays& rays, int follows) {
+    if (rays.rays.empty()) return 0;
+    std::uint64_t traced = rays.trace(from, gather_salt(request_.sample, follows), scratch_);
+    GatheringRays following;
+    std::vector<std::size_t> parents;  // hits from which the following rays start
+    if (follows < kMaxSecondaryRays) {
+      parents = add_secondary_rays(from, rays, follows + 1, following);
+      traced += trace(from, following, follows + 1);
+    }
+    rays.look_up(from, parents);
+    for (std::size_t k = 0; k < parents.size(); ++k) {
+      const LitPoint& point = rays.shaded[parents[k]].point;
+      rays.from_field[parents[k]] =
+          secondary_irradiance(point.normal_ws, point.geometric_normal_ws,
+                               following.rays[k].direction, following.shaded[k].surface,
+                               following.shaded[k].direct_irradiance, following.from_field[k]);
+    }
+    return traced;
+  }
+
+  /// Adds the rays of secondary gathers at the hits of rays. Returns these hits in rising order.
+  std::vector<std::size_t> add_secondary_rays(const GatherSources& from, const GatheringRays& rays,
+                                              int follows, GatheringRays& following) const {
+    std::vector<std::size_t> parents;
     FieldVolumes volumes{from.grids};
     const int count = static_cast<int>(from.grids.size());
-    for (std::size_t i = 0; i < first_.rays.size(); ++i) {
-      if (!reads_field(first_.shaded[i].surface)) continue;
-      const LitPoint& point = first_.shaded[i].point;
-      const SecondaryRay drawn =
-          secondary_ray(point.position_ws, point.normal_ws, point.geometric_normal_ws,
-                        point.viewer_distance, volumes.spacing_at(count, point.position_ws),
-                        static_cast<uint>(first_.indices[i]), request_.sample, request_.seed);
+    for (std::size_t i = 0; i < rays.rays.size(); ++i) {
+      if (!reads_field(rays.shaded[i].surface)) continue;
+      const LitPoint& point = rays.shaded[i].point;
+      const SecondaryRay drawn = secondary_ray(
+          point.position_ws, point.normal_ws, point.geometric_normal_ws,
+          min(point.viewer_distance, rays.shaded[i].light_distance),
+          volumes.spacing_at(count, point.position_ws), static_cast<uint>(rays.indices[i]),
+          gather_salt(request_.sample, follows), request_.seed);
       if (!drawn.traced) continue;
-      gathers_again[i] = 1;
-      parents_.push_back(i);
-      second_.rays.push_back(
+      parents.push_back(i);
+      following.rays.push_back(
           {drawn.origin_ws, 0.0f, drawn.direction_ws, kInfiniteDistance, kRayGathers});
-      second_.indices.push_back(first_.indices[i]);
+      following.indices.push_back(rays.indices[i]);
     }
-    return gathers_again;
+    return parents;
   }
 
   const GatherRequest& request_;
   std::size_t rays_per_pixel_;
   std::vector<std::size_t> pixels_;
-  GatheringRays first_, second_;
-  std::vector<std::size_t> parents_;  // hits of the first rays, from which the second ones start
+  GatheringRays first_;
   ShadeHitsScratch scratch_;
 };
 

@@ -19,20 +19,31 @@ LAMBENT_FN vec3 gather_direction(Frame frame, vec2 point) {
 
 // Surfaces that are nearer to each other than probes are light each other with more detail than
 // lookups have: light between a lamp and its housing, shade under a bench. Where a gathering ray is
-// shorter than a spacing of the probes at its hit, a secondary gather may replace the lookup there
-// by one more ray: always up to a share of this reach, and ever more rarely up to all of it, so
-// that there is no seam. Jensen, "Global Illumination using Photon Maps", 1996, sec. 5, for nearby
-// hits.
+// shorter than a spacing of the probes at its hit, or the light that was drawn there is nearer, a
+// secondary gather may replace the lookup there by one more ray: always up to a share of this
+// reach, and ever more rarely up to all of it, so that there is no seam. Where that ray meets such
+// a place, too, one more follows. Jensen, "Global Illumination using Photon Maps", 1996, sec. 5,
+// for nearby hits.
 const float kSecondaryReach = 1.0f;  // [spacings]
 const float kCertainShare = 0.5f;    // of the reach, up to which there always is one
 
-// Gives secondary gathers random numbers of their own.
+// Rays that follow a gathering ray at most. Between a white tube and its white housing, each
+// further one brings about half of what the one before brought.
+const int kMaxSecondaryRays = 4;
+
+// Multiples of this salt give the rays that follow each other random numbers of their own.
 const uint kSecondarySalt = 0x85EBCA6Bu;
 
-/// The probability of a secondary gather where a ray of this length [m] ends among probes of this
-/// spacing [m].
-LAMBENT_FN float secondary_probability(float distance, float spacing) {
-  float left = 1.0f - distance / (kSecondaryReach * spacing);
+/// The salt of the light at the hits of gathering rays, 0, or of the rays that follow them, 1 to
+/// kMaxSecondaryRays.
+LAMBENT_FN uint gather_salt(uint sample_index, int follows) {
+  return sample_index ^ (uint(follows) * kSecondarySalt);
+}
+
+/// The probability of a secondary gather where what is nearest, the origin of the ray that ends
+/// there or the light that was drawn, is this far [m], and probes have this spacing [m].
+LAMBENT_FN float secondary_probability(float nearest, float spacing) {
+  float left = 1.0f - nearest / (kSecondaryReach * spacing);
   return clamp(left / (1.0f - kCertainShare), 0.0f, 1.0f);
 }
 
@@ -42,15 +53,16 @@ struct SecondaryRay {
   vec3 origin_ws, direction_ws;
 };
 
-/// Draws the secondary gather at the hit of a ray of this length [m], whose index among all rays of
-/// the picture this is.
+/// Draws the secondary gather at the hit of a ray, for what is nearest there as in
+/// secondary_probability(). `index` is that of the gathering ray among all rays of the picture, and
+/// `salt` the gather_salt() of the new ray.
 LAMBENT_FN SecondaryRay secondary_ray(vec3 position_ws, vec3 normal_ws, vec3 geometric_normal_ws,
-                                      float distance, float spacing, uint index, uint sample_index,
+                                      float nearest, float spacing, uint index, uint salt,
                                       uint seed) {
   // The complement of the seed: light at its hit draws from the stream of the seed itself
-  RandomStream random = make_random_stream(index, sample_index ^ kSecondarySalt, ~seed);
+  RandomStream random = make_random_stream(index, salt, ~seed);
   SecondaryRay ray;
-  ray.traced = next_uniform(random) < secondary_probability(distance, spacing);
+  ray.traced = next_uniform(random) < secondary_probability(nearest, spacing);
   ray.origin_ws = offset_ray_origin(position_ws, geometric_normal_ws);
   ray.direction_ws = gather_direction(make_frame(normal_ws), next_uniform2(random));
   return ray;

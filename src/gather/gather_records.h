@@ -33,10 +33,10 @@ struct RayQueriesArguments {
   uint padding;
 };
 
-/// Makes the rays of secondary gathers at the hits of gathering rays, and writes their indices.
+/// Makes the rays of secondary gathers at the hits of rays, and writes their indices.
 struct SecondaryRaysArguments {
-  RayArray gathering_rays;
-  LitPointArray points;     ///< The hits of the gathering rays.
+  RayArray gathering_rays;  ///< Or those of the secondary gathers before.
+  LitPointArray points;     ///< The hits of these rays.
   ShadedHitArray shaded;    ///< Those hits.
   UintArray first_indices;  ///< Index of each pixel's first ray.
   GridArray grids;
@@ -45,19 +45,19 @@ struct SecondaryRaysArguments {
   int volumes;
   uint count;
   uint rays_per_pixel;
-  uint sample_index;
+  uint salt;  ///< See gather_salt().
   uint seed;
   uint padding;
 };
 
-/// Replaces lookups at the hits of gathering rays by what secondary gathers found there.
+/// Replaces lookups at the hits of rays by what secondary gathers found there.
 struct SecondaryLightArguments {
-  LitPointArray points;  ///< The hits of the gathering rays.
+  LitPointArray points;  ///< The hits of the rays.
   RayArray rays;         ///< Of the secondary gathers, as are the next three.
   ShadedHitArray shaded;
   Vec3Array direct;
   Vec3Array field;
-  Vec3Array replaced;  ///< Irradiance at the hits of the gathering rays from the field.
+  Vec3Array replaced;  ///< Irradiance at the hits of the rays from the field.
   uint count;
   uint padding;
 };

@@ -23,8 +23,10 @@ LAMBENT_SHADING_KERNEL void queue_direct_light(const World& world,
                                                std::span<const DirectLightQuery> queries,
                                                const ShadeHitsSettings& settings,
                                                ShadeHitsScratch& scratch) {
+  scratch.light_distances.assign(queries.size(), kInfiniteDistance);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const std::size_t place = i;
+    float& nearest = scratch.light_distances[i];
     const DirectLightQuery& query = queries[i];
     const LitPoint& point = query.point;
     RandomStream random =
@@ -35,6 +37,7 @@ LAMBENT_SHADING_KERNEL void queue_direct_light(const World& world,
     for_each_light(draws, receiver, random, [&](const LightCandidate& light) {
       const glm::vec3 irradiance = unoccluded_irradiance(point, shape, light);
       if (irradiance == glm::vec3(0.0f)) return;
+      nearest = std::min(nearest, light.distance);
       scratch.pending.push_back({place, irradiance});
       scratch.shadow_rays.push_back(
           shadow_ray(point.position_ws, point.geometric_normal_ws, light));
@@ -142,6 +145,7 @@ std::size_t shade_surfaces(const World& world, std::span<const Ray> rays, std::s
       direct_irradiance(world, scratch.queries, settings, scratch, scratch.direct);
   for (std::size_t i = 0; i < scratch.hits.size(); ++i) {
     shaded[scratch.hits[i]].direct_irradiance = scratch.direct[i];
+    shaded[scratch.hits[i]].light_distance = scratch.light_distances[i];
   }
   return shadow_rays;
 }
@@ -187,7 +191,7 @@ std::size_t follow_mirrors(const World& world, std::span<const Ray> rays, std::s
     const ShadedHit& shown = reflected.shaded[k];
     const LitHit both = shown_by_mirror({shaded[i].surface, shaded[i].direct_irradiance},
                                         {shown.surface, shown.direct_irradiance}, hits[i].distance);
-    shaded[i] = {shown.point, both.hit, both.irradiance};
+    shaded[i] = {shown.point, both.hit, both.irradiance, shown.light_distance};
   }
   return reflected.rays.size() + shadow_rays;
 }

@@ -20,6 +20,9 @@ struct ShadedHit {
   LitPoint point;
   ShadedHitRecord surface;
   glm::vec3 direct_irradiance;  ///< From lights and emissive surfaces [W/m^2].
+  /// The nearest of the lights that were drawn, whether occluded or not [m]; infinite: there is
+  /// none.
+  float light_distance = kInfiniteDistance;
 };
 
 /// Settings of the shading of hits.
@@ -59,8 +62,9 @@ struct ShadeHitsScratch {
     glm::vec3 irradiance;
   };
   std::vector<DirectLightQuery> queries;
-  std::vector<std::size_t> hits;  // the queries' hits
-  std::vector<glm::vec3> direct;  // the queries' results
+  std::vector<std::size_t> hits;       // the queries' hits
+  std::vector<glm::vec3> direct;       // the queries' results
+  std::vector<float> light_distances;  // see ShadedHit
   std::vector<Ray> shadow_rays;
   std::vector<PendingLight> pending;
   ShadowRays shadows;

@@ -135,6 +135,50 @@ TEST(UnseenRoom, WithAPanelSeenFromBehindIsLitAsTheReferenceLightsIt) {
   expect_like_reference({.panel = true});
 }
 
+/// A dark room under nine white tubes that hang 4 mm below white housings.
+Scene under_tubes() {
+  Scene scene;
+  scene.materials = {test::lambert(glm::vec3(0.1f)),
+                     test::lambert(glm::vec3(0.8f), glm::vec3(12.0f)),
+                     test::lambert(glm::vec3(0.8f))};
+  constexpr int kHousings = 2;
+  test::add(scene, flat_box(glm::vec3(0.0f), {6.0f, 3.0f, 5.0f}, true));
+  for (const float x : {1.0f, 3.0f, 5.0f}) {
+    for (const float z : {0.9f, 2.5f, 4.1f}) {
+      Mesh tube = flat_box({x - 0.6f, 2.85f, z - 0.02f}, {x + 0.6f, 2.89f, z + 0.02f});
+      Mesh housing = flat_box({x - 0.62f, 2.894f, z - 0.08f}, {x + 0.62f, 2.96f, z + 0.08f});
+      tube.material = kLamp;
+      housing.material = kHousings;
+      test::add(scene, std::move(tube));
+      test::add(scene, std::move(housing));
+    }
+  }
+  return scene;
+}
+
+TEST(UnseenRoom, UnderTubesGathersTheLightOfTheirHousings) {
+  const test::Stage stage(under_tubes());
+  const Camera camera = look_at({5.6f, 1.2f, 4.6f}, {1.5f, 0.6f, 0.8f}, 75.0f * kPi / 180.0f);
+  ReferenceSettings settings;
+  settings.width = kWidth / 2;
+  settings.height = kHeight / 2;
+  settings.samples = 512;
+  const LayeredImage reference = render_reference(stage.world, camera, settings).image;
+  const IrradianceField field = test::make_field(stage, {}, kUpdates);
+  FrameSettings frame;
+  frame.width = settings.width;
+  frame.height = settings.height;
+  frame.gather_rays = 64;
+  const LayeredImage image =
+      Renderer(stage.world, {.field = &field}).render(camera, frame).value().image;
+  const Metrics metrics =
+      compare_images(*image.find("irradiance"), *reference.find("irradiance"), {}).value();
+  std::printf("mean ratio %.4f\n", metrics.mean_ratio);
+  // Light that goes on between tubes and housings is cut off after a few bounces
+  EXPECT_GE(metrics.mean_ratio, 0.89);
+  EXPECT_LE(metrics.mean_ratio, 1.02);
+}
+
 TEST(UnseenRoom, UnderAMirrorIsLitAsTheReferenceLightsIt) {
   Scene scene = scenes::make("cornell").value();
   Material mirror;

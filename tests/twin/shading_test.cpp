@@ -234,6 +234,7 @@ TEST_F(ShadingTwin, ShadesSmallAndLargeBatchesInOneCommandBuffer) {
                     index,
                     0u,
                     vec3(0.0f),
+                    0.0f,
                     0.0f};
     }
     points.push_back(vulkan::upload(device(), records, "points"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Replaces lookups at the hits of gathering rays by what secondary gathers found there.
+// Replaces lookups at the hits of rays by what secondary gathers found there.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gather/gather_math.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the rays of secondary gathers, one for each ray that gathers a pixel's light; those that
-// have none are not traced.
+// Makes the rays of secondary gathers, one for each ray that gathers a pixel's light or follows one;
+// those that have none are not traced.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gather/gather_math.h"
@@ -23,8 +23,9 @@ void main() {
   if (args.gathering_rays.at[i].mask == 0u || !reads_field(args.shaded.at[i])) return;
   LitPointRecord point = args.points.at[i];
   SecondaryRay drawn = secondary_ray(
-      point.position_ws, point.normal_ws, point.geometric_normal_ws, point.viewer_distance,
-      spacing_at(args.volumes, point.position_ws), index, args.sample_index, args.seed);
+      point.position_ws, point.normal_ws, point.geometric_normal_ws,
+      min(point.viewer_distance, point.light_distance),
+      spacing_at(args.volumes, point.position_ws), index, args.salt, args.seed);
   if (!drawn.traced) return;
   args.rays.at[i] = RayRecord(drawn.origin_ws, 0.0f, drawn.direction_ws,
                               uintBitsToFloat(kMissedDistanceBits), kRayGathers);

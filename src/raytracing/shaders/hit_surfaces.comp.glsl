@@ -25,7 +25,7 @@ void main() {
   HitRecord hit = args.hits.at[i];
   LitPointRecord point =
       LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kNoDirectLight, 0u,
-                     -ray.direction_ws, 0.0f);
+                     -ray.direction_ws, 0.0f, uintBitsToFloat(kMissedDistanceBits));
   if (missed(hit)) {
     args.points.at[i] = point;
     ShadedHitRecord sky =

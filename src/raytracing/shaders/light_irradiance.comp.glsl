@@ -36,17 +36,22 @@ void main() {
   uint slots = slot_count(args);
   LightPicks picks;
   uint rays = 0u;
+  float nearest = uintBitsToFloat(kMissedDistanceBits);
   for (uint slot = 0u; slot < slots; ++slot) {
     RayRecord ray = no_ray();
     vec3 unoccluded = vec3(0.0f);
     if (asks) {
       LightCandidate light = candidate_of_slot(args, receiver, slot, picks, random);
       unoccluded = unoccluded_irradiance(point, receiver.shape, light);
-      if (unoccluded != vec3(0.0f)) ray = shadow_ray(point, light);
+      if (unoccluded != vec3(0.0f)) {
+        ray = shadow_ray(point, light);
+        nearest = min(nearest, light.distance);
+      }
     }
     args.unoccluded_irradiance.at[slot * args.count + i] = unoccluded;
     args.shadow_rays.at[slot * args.count + i] = ray;
     rays += ray.mask != 0u ? 1u : 0u;
   }
+  if (asks) args.points.at[args.first + i].light_distance = nearest;
   if (rays > 0u) atomicAdd(args.ray_count.at[0], rays);
 }
