@@ -101,6 +101,24 @@ TEST(Corrections, ReadFromSingleCellsHaveTheMeanOfInterpolatedOnes) {
   EXPECT_NEAR(picked / smooth, 1.0, 0.005);
 }
 
+TEST(Corrections, ReadFromSingleCellsAreThoseOfTheSurface) {
+  // Also where the surface is between two layers of cells, as floors at a height of 0 are
+  for (const float height : {0.0f, 0.01f, 0.05f}) {
+    std::vector<CorrectionSample> samples = samples_on_floor(100000, [](float) { return 0.5f; });
+    for (CorrectionSample& sample : samples) sample.position_ws.y = height;
+    const CorrectionTable table = taught(samples);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> place(-2.0f, 2.0f);
+    double picked = 0.0;
+    constexpr int kPlaces = 10000;
+    for (int i = 0; i < kPlaces; ++i) {
+      const float z = place(random), x = place(random);
+      picked += read(table, {x, height, z}, kUp, CorrectionUse::picked);
+    }
+    EXPECT_NEAR(picked / kPlaces, 0.5, 0.01) << height;
+  }
+}
+
 struct Spread {
   double mean, deviation;
 };
@@ -148,17 +166,6 @@ TEST(Corrections, AreSmootherWhereGathersAreNoisy) {
   EXPECT_NEAR(told.mean, 1.0, 0.03);
   EXPECT_GT(blind.deviation, 0.05);
   EXPECT_LT(told.deviation, 0.4 * blind.deviation);
-}
-
-TEST(Corrections, KeepTheLightOfNoisyGathers) {
-  // Of eight gathers, seven find nothing and one finds 64 times what is looked up
-  std::vector<CorrectionSample> samples = samples_on_floor(100000, [](float) { return 1.0f; });
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const float looked_up = samples[i].looked_up;
-    samples[i].gathered = i % 8 == 0 ? 64.0f * looked_up : 0.0f;
-    samples[i].variance = 448.0f * looked_up * looked_up;
-  }
-  EXPECT_NEAR(spread_of(taught(samples)).mean, 8.0, 0.2);
 }
 
 TEST(Corrections, CountQuietSamplesAsOneEach) {

@@ -97,7 +97,8 @@ LAMBENT_FN float picked_correction(CorrectionsRef table, ProbeGrid grid, uint vo
                                    vec3 position_ws, vec3 normal_ws) {
   vec3 pick = correction_pick(grid, position_ws);
   uint axis = correction_axis(normal_ws * grid.axes, pick.x);
-  return picked_from_level(table, correction_coords(grid, position_ws), pick, axis, volume, 0u);
+  return picked_from_level(table, correction_coords(grid, position_ws),
+                           pick_along_surface(pick, axis), axis, volume, 0u);
 }
 
 /// The ratio of the level above `level` at the centre of one of its cells.

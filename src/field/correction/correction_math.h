@@ -32,9 +32,9 @@ const float kCorrectionPrior = 2.0f;
 const float kSmoothPrior = 8.0f;
 const float kSmoothRest = 0.05f;
 
-// The largest ratio, and the inverse of the smallest. Within a lampshade, lookups find less than a
-// tenth of the light.
-const float kMaxCorrection = 16.0f;
+// The largest ratio, and the inverse of the smallest. Lookups are further off only where there is
+// hardly any light.
+const float kMaxCorrection = 4.0f;
 
 // The weight of cells of an axis is the square of the normal's component along it. Axes whose
 // weight is below this are left out.
@@ -131,6 +131,13 @@ LAMBENT_FN vec3 correction_pick(ProbeGrid grid, vec3 position_ws) {
   return hash_of_place(correction_coords(grid, position_ws));
 }
 
+/// `pick` without its part along the axis (correction_axis()) that a surface faces: cells before
+/// and behind the surface have learned nothing.
+LAMBENT_FN vec3 pick_along_surface(vec3 pick, uint axis) {
+  pick[axis % 3u] = 0.5f;
+  return pick;
+}
+
 /// The cell that `pick` picks around a point, which is given in cells of the same level.
 LAMBENT_FN ivec3 picked_cell(vec3 coords, vec3 pick) {
   return ivec3(floor(coords + pick - vec3(0.5f)));
@@ -165,7 +172,7 @@ struct CorrectionCell {
 };
 
 // Both numbers are stored as fixed-point numbers of 16 bits.
-const float kCorrectionRatioSteps = 4095.0f;
+const float kCorrectionRatioSteps = 16383.0f;
 const float kCorrectionSampleSteps = 256.0f;
 const float kMaxCorrectionSamples = 255.0f;
 
@@ -180,13 +187,6 @@ LAMBENT_FN CorrectionCell decode_correction(uint word) {
   CorrectionCell cell = {float(word & 0xFFFFu) * (1.0f / kCorrectionRatioSteps),
                          float(word >> 16u) * (1.0f / kCorrectionSampleSteps)};
   return cell;
-}
-
-/// The number of samples that one counts as in a cell of a level. `worth` comes from
-/// sample_weight(). The coarsest level counts all as one: noise spreads what is learned over larger
-/// cells, but must not take light away, as weight for the ratio of 1 above that level would.
-LAMBENT_FN float worth_in_level(uint level, float worth) {
-  return level + 1u < uint(kCorrectionLevels) ? worth : 1.0f;
 }
 
 // The weight of a cell in an interpolation is its number of samples plus this. The number is small,
@@ -238,8 +238,7 @@ LAMBENT_FN CorrectionNoise correction_noise(float variance, float looked_up, flo
   return noise;
 }
 
-/// The number of samples of typical noise that each sample of an update counts as, at most 1, in
-/// all levels but the coarsest.
+/// The number of samples of typical noise that each sample of an update counts as, at most 1.
 LAMBENT_FN float sample_weight(CorrectionNoise noise) {
   float typical = kTypicalNoise * noise.squares;
   return noise.variances > typical ? max(typical / noise.variances, kLeastWorth) : 1.0f;

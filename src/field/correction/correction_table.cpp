@@ -159,6 +159,7 @@ __attribute__((flatten)) void CorrectionTable::picked_at(std::span<const Correct
     Picked& picked = all[i];
     picked.pick = correction_pick(*point.grid, point.position_ws);
     picked.axis = correction_axis(point.normal_ws * point.grid->axes, picked.pick.x);
+    picked.pick = pick_along_surface(picked.pick, picked.axis);
     picked.coords = correction_coords(*point.grid, point.position_ws);
     const ivec3 cell = picked_cell(picked.coords, picked.pick);
     picked.cell = cell_of_block(cell);

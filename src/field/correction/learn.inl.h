@@ -42,8 +42,8 @@ LAMBENT_FN uint claim_slots(LearningRef table, uint first, uint items) {
   return used;
 }
 
-/// Adds the new samples of a slot's block, each of which counts as worth_in_level(), to the sums of
-/// its cells, and stores the block in the slot `into`. Returns the block's number of samples.
+/// Adds the new samples of a slot's block, each of which counts as `worth`, to the sums of its
+/// cells, and stores the block in the slot `into`. Returns the block's number of samples.
 LAMBENT_FN float merge_block(LearningRef table, uint slot, uint into, uint items, float keep,
                              float worth) {
   CorrectionKey key = fetch_key(table, slot);
@@ -63,11 +63,10 @@ LAMBENT_FN float merge_block(LearningRef table, uint slot, uint into, uint items
     }
     i = item.next;
   }
-  float each = worth_in_level(level_of_key(key), worth);
   float samples = 0.0f;
   for (int k = 0; k < kCellCorners; ++k) {
     LearnedCorrection cell =
-        updated_correction(fetch_learned(table, slot, k), keep, sums[k], each * float(counts[k]));
+        updated_correction(fetch_learned(table, slot, k), keep, sums[k], worth * float(counts[k]));
     store_learned(table, into, k, cell);
     samples += cell.samples;
   }
@@ -75,9 +74,9 @@ LAMBENT_FN float merge_block(LearningRef table, uint slot, uint into, uint items
   return samples;
 }
 
-/// Adds the items of the list that begins at `items` (0: the list is empty) to the blocks of the
-/// bucket that begins at the slot `first`. `worth` comes from sample_weight(). Removes blocks that
-/// have no samples left.
+/// Adds the items of the list that begins at `items` (0: the list is empty), each of which counts
+/// as `worth` samples, to the blocks of the bucket that begins at the slot `first`. Removes blocks
+/// that have no samples left.
 LAMBENT_FN void merge_bucket(LearningRef table, uint first, uint items, float keep, float worth) {
   uint used = claim_slots(table, first, items);
   uint kept = 0u;

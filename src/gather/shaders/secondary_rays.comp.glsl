@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the rays of secondary gathers, one for each ray that gathers a pixel's light or follows one;
-// those that have none are not traced.
+// Makes the rays of secondary gathers, one for each ray that gathers a pixel's light, or for each
+// one that follows such a ray; those that have none are not traced.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gather/gather_math.h"
