@@ -174,8 +174,8 @@ TEST(UnseenRoom, UnderTubesGathersTheLightOfTheirHousings) {
   const Metrics metrics =
       compare_images(*image.find("irradiance"), *reference.find("irradiance"), {}).value();
   std::printf("mean ratio %.4f\n", metrics.mean_ratio);
-  // Light that goes on between tubes and housings is cut off after a few bounces
-  EXPECT_GE(metrics.mean_ratio, 0.89);
+  // Five bounces between a tube and its housing are found, and a tenth of the light takes more
+  EXPECT_GE(metrics.mean_ratio, 0.86);
   EXPECT_LE(metrics.mean_ratio, 1.02);
 }
 
