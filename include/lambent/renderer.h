@@ -49,7 +49,8 @@ struct FrameSettings {
   int reflected_emissive_samples = 4;
   /// Rays per sample that gather its indirect light (final gathering), >= 0; 0: the field is looked
   /// up instead. Gathering resolves light and shade finer than the probes' spacing, but is noisy,
-  /// and costs two rays for each, four for those that end within a spacing of the probes.
+  /// and costs a ray and its shadow rays for each. Where it ends within a spacing of the probes
+  /// from its origin or from a light, up to four more follow.
   int gather_rays = 0;
   /// Specular reflections of roughness below 0.95 are traced with a ray at each pixel of every
   /// `glossy_rows`-th row, 1 to 8, and at each pixel of roughness up to 0.5. 0: specular lobes

@@ -18,6 +18,7 @@
 #include "compose/motion_records.h"
 #include "compose/pixel_math.h"
 #include "denoise/denoise_vulkan.h"
+#include "field/correction/correction_records.h"
 #include "field/correction/correction_use.h"
 #include "fog/fog_records.h"
 #include "gather/gather_math.h"
@@ -41,6 +42,7 @@
 #include "shaders/further_rays_comp.h"
 #include "shaders/gather_rays_comp.h"
 #include "shaders/gather_sum_comp.h"
+#include "shaders/hit_queries_comp.h"
 #include "shaders/keep_behind_comp.h"
 #include "shaders/keep_clearcoats_comp.h"
 #include "shaders/keep_mirrored_comp.h"
@@ -50,7 +52,6 @@
 #include "shaders/motion_comp.h"
 #include "shaders/motion_rays_comp.h"
 #include "shaders/pixel_queries_comp.h"
-#include "shaders/ray_queries_comp.h"
 #include "shaders/replace_light_comp.h"
 #include "shaders/scale_layers_comp.h"
 #include "shaders/secondary_light_comp.h"
@@ -80,7 +81,7 @@ struct FrameKernels {
   vulkan::Kernel motion{device, shaders::motion_comp(), "motion"};
   vulkan::Kernel pixel_queries{device, shaders::pixel_queries_comp(), "pixel queries"};
   vulkan::Kernel gather_rays{device, shaders::gather_rays_comp(), "gather rays"};
-  vulkan::Kernel ray_queries{device, shaders::ray_queries_comp(), "ray queries"};
+  vulkan::Kernel hit_queries{device, shaders::hit_queries_comp(), "hit queries"};
   vulkan::Kernel secondary_rays{device, shaders::secondary_rays_comp(), "secondary rays"};
   vulkan::Kernel secondary_light{device, shaders::secondary_light_comp(), "secondary light"};
   vulkan::Kernel gather_sum{device, shaders::gather_sum_comp(), "gather sum"};
@@ -285,7 +286,7 @@ class FramePassesVulkan final : public FramePasses {
                      std::uint32_t rays_per_index, const ShadeHitsSettings& shading);
   // Append the passes of a gather; see gather/gather.cpp
   void draw_gathers(const GatheredPixels& pixels);
-  void draw_secondary_gathers(const GatheredPixels& pixels, int volumes, int follows);
+  void draw_secondary_gathers(const GatheredPixels& pixels, int volumes, int depth);
   void sum_gathers(const GatheredPixels& pixels);
   /// Lights the coats of the rows around the band, which see_around_band() has filled in, by rays;
   /// see Glossy::reflect. `sky`: see reflect_band(). Returns whether there are any rays.

@@ -44,9 +44,12 @@ void FramePassesVulkan::light_gathers(const GatherBuffers& gathers, std::uint32_
         to, stage(), {{gathers.rays.address()}, hits, count}, {first_indices.address()},
         rays_per_index, shading,
         {{gathers.points.address()}, {gathers.shaded.address()}, {gathers.direct.address()}});
-    const RayQueriesArguments asked = {
-        {gathers.points.address()}, {memory_.queries.address()}, count, 0u};
-    to.run(kernels_.ray_queries, asked, count);
+    const HitQueriesArguments asked = {{gathers.points.address()},
+                                       {gathers.rays.address()},
+                                       {memory_.queries.address()},
+                                       count,
+                                       0u};
+    to.run(kernels_.hit_queries, asked, count);
   });
   look_up("gather", *request_->sources.field, memory_.queries, count, CorrectionUse::picked,
           gathers.field);
@@ -72,22 +75,23 @@ void FramePassesVulkan::draw_gathers(const GatheredPixels& pixels) {
   });
 }
 
-/// Draws the secondary gathers that follow the rays of the memory before theirs; see gather_salt().
+/// Draws the secondary gathers of a depth (see gather_salt()) at the hits of the rays of the depth
+/// before.
 void FramePassesVulkan::draw_secondary_gathers(const GatheredPixels& pixels, int volumes,
-                                               int follows) {
+                                               int depth) {
   add("gather", [=, this, &m = memory_](Recorder& to) {
-    const GatherBuffers& before = m.gathers[follows - 1];
+    const GatherBuffers& before = m.gathers[depth - 1];
     const SecondaryRaysArguments drawn = {{before.rays.address()},
                                           {before.points.address()},
                                           {before.shaded.address()},
                                           {m.gathering_indices.address()},
                                           {m.field_grids.address()},
-                                          {m.gathers[follows].rays.address()},
+                                          {m.gathers[depth].rays.address()},
                                           {m.secondary_indices.address()},
                                           volumes,
                                           pixels.rays(),
                                           pixels.rays_per_pixel,
-                                          gather_salt(sample_, follows),
+                                          gather_salt(sample_, depth),
                                           request_->settings.seed,
                                           0u};
     to.run(kernels_.secondary_rays, drawn, pixels.rays());
@@ -98,14 +102,14 @@ void FramePassesVulkan::sum_gathers(const GatheredPixels& pixels) {
   const bool filters = request_->settings.denoise;
   add("gather", [=, this, &m = memory_](Recorder& to) {
     // From the last rays back to the first
-    for (int follows = kMaxSecondaryRays; follows > 0; --follows) {
-      const GatherBuffers &at = m.gathers[follows - 1], &following = m.gathers[follows];
-      const SecondaryLightArguments replacing = {{at.points.address()},
+    for (int depth = kMaxSecondaryRays; depth > 0; --depth) {
+      const GatherBuffers &before = m.gathers[depth - 1], &following = m.gathers[depth];
+      const SecondaryLightArguments replacing = {{before.points.address()},
                                                  {following.rays.address()},
                                                  {following.shaded.address()},
                                                  {following.direct.address()},
                                                  {following.field.address()},
-                                                 {at.field.address()},
+                                                 {before.field.address()},
                                                  pixels.rays(),
                                                  0u};
       to.run(kernels_.secondary_light, replacing, pixels.rays());
@@ -160,10 +164,10 @@ void FramePassesVulkan::gather() {
     draw_gathers(pixels);
     shading.salt = gather_salt(sample_, 0);
     light_gathers(m.gathers[0], pixels.rays(), m.gathering_indices, rays_per_pixel, shading);
-    for (int follows = 1; follows <= kMaxSecondaryRays; ++follows) {
-      draw_secondary_gathers(pixels, static_cast<int>(grids.size()), follows);
-      shading.salt = gather_salt(sample_, follows);
-      light_gathers(m.gathers[follows], pixels.rays(), m.secondary_indices, 1u, shading);
+    for (int depth = 1; depth <= kMaxSecondaryRays; ++depth) {
+      draw_secondary_gathers(pixels, static_cast<int>(grids.size()), depth);
+      shading.salt = gather_salt(sample_, depth);
+      light_gathers(m.gathers[depth], pixels.rays(), m.secondary_indices, 1u, shading);
     }
     sum_gathers(pixels);
   }

@@ -138,16 +138,16 @@ class GatherChunk {
     }
   }
 
-  /// Finds the light that rays bring, which are the gathering ones (`follows` is 0) or those that
-  /// follow them (see gather_salt()). Returns the number of rays traced.
-  std::uint64_t trace(const GatherSources& from, GatheringRays& rays, int follows) {
+  /// Finds the light that the rays of a depth (see gather_salt()) bring. Returns the number of rays
+  /// traced.
+  std::uint64_t trace(const GatherSources& from, GatheringRays& rays, int depth) {
     if (rays.rays.empty()) return 0;
-    std::uint64_t traced = rays.trace(from, gather_salt(request_.sample, follows), scratch_);
+    std::uint64_t traced = rays.trace(from, gather_salt(request_.sample, depth), scratch_);
     GatheringRays following;
     std::vector<std::size_t> parents;  // hits from which the following rays start
-    if (follows < kMaxSecondaryRays) {
-      parents = add_secondary_rays(from, rays, follows + 1, following);
-      traced += trace(from, following, follows + 1);
+    if (depth < kMaxSecondaryRays) {
+      parents = add_secondary_rays(from, rays, depth + 1, following);
+      traced += trace(from, following, depth + 1);
     }
     rays.look_up(from, parents);
     for (std::size_t k = 0; k < parents.size(); ++k) {
@@ -160,9 +160,10 @@ class GatherChunk {
     return traced;
   }
 
-  /// Adds the rays of secondary gathers at the hits of rays. Returns these hits in rising order.
+  /// Adds the secondary gathers of a depth at the hits of the rays of the depth before. Returns
+  /// these hits in rising order.
   std::vector<std::size_t> add_secondary_rays(const GatherSources& from, const GatheringRays& rays,
-                                              int follows, GatheringRays& following) const {
+                                              int depth, GatheringRays& following) const {
     std::vector<std::size_t> parents;
     FieldVolumes volumes{from.grids};
     const int count = static_cast<int>(from.grids.size());
@@ -173,7 +174,7 @@ class GatherChunk {
           point.position_ws, point.normal_ws, point.geometric_normal_ws,
           min(point.viewer_distance, rays.shaded[i].light_distance),
           volumes.spacing_at(count, point.position_ws), static_cast<uint>(rays.indices[i]),
-          gather_salt(request_.sample, follows), request_.seed);
+          gather_salt(request_.sample, depth), request_.seed);
       if (!drawn.traced) continue;
       parents.push_back(i);
       following.rays.push_back(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Directions of the rays that gather a pixel's light, and the clamp on their contribution.
+// Rays that gather a pixel's light, secondary gathers at their hits, and what they contribute.
 #ifndef LAMBENT_GATHER_GATHER_MATH_H
 #define LAMBENT_GATHER_GATHER_MATH_H
 
@@ -27,17 +27,17 @@ LAMBENT_FN vec3 gather_direction(Frame frame, vec2 point) {
 const float kSecondaryReach = 1.0f;  // [spacings]
 const float kCertainShare = 0.5f;    // of the reach, up to which there always is one
 
-// Rays that follow a gathering ray at most. Between a white tube and its white housing, each
-// further one brings about half of what the one before brought.
+// Rays that follow a gathering ray at most: with the light drawn at the last one, five bounces
+// between a lamp and its housing.
 const int kMaxSecondaryRays = 4;
 
-// Multiples of this salt give the rays that follow each other random numbers of their own.
+// Multiples of this salt give the rays of each depth random numbers of their own.
 const uint kSecondarySalt = 0x85EBCA6Bu;
 
-/// The salt of the light at the hits of gathering rays, 0, or of the rays that follow them, 1 to
-/// kMaxSecondaryRays.
-LAMBENT_FN uint gather_salt(uint sample_index, int follows) {
-  return sample_index ^ (uint(follows) * kSecondarySalt);
+/// The salt of rays of a depth, and of the light at their hits. The gathering rays have depth 0,
+/// and the secondary gathers that follow each other 1 to kMaxSecondaryRays.
+LAMBENT_FN uint gather_salt(uint sample_index, int depth) {
+  return sample_index ^ (uint(depth) * kSecondarySalt);
 }
 
 /// The probability of a secondary gather where what is nearest, the origin of the ray that ends
@@ -53,8 +53,8 @@ struct SecondaryRay {
   vec3 origin_ws, direction_ws;
 };
 
-/// Draws the secondary gather at the hit of a ray, for what is nearest there as in
-/// secondary_probability(). `index` is that of the gathering ray among all rays of the picture, and
+/// Draws the secondary gather at the hit of a ray. `nearest` and `spacing` are those of
+/// secondary_probability(), `index` is that of the gathering ray among all rays of the picture, and
 /// `salt` the gather_salt() of the new ray.
 LAMBENT_FN SecondaryRay secondary_ray(vec3 position_ws, vec3 normal_ws, vec3 geometric_normal_ws,
                                       float nearest, float spacing, uint index, uint salt,
@@ -82,7 +82,7 @@ LAMBENT_FN vec3 gathered_irradiance(float above, vec3 geometric_normal_ws, vec3 
   return (kPi * above) * gathered_radiance(hit, direct, field);
 }
 
-/// Irradiance at the hit of a gathering ray that its secondary gather stands for. The hit's share
+/// Irradiance at the hit of a ray that its secondary gather stands for. The hit's share
 /// of indirect light is left to gathered_radiance().
 LAMBENT_FN vec3 secondary_irradiance(vec3 normal_ws, vec3 geometric_normal_ws, vec3 direction_ws,
                                      ShadedHitRecord hit, vec3 direct, vec3 field) {

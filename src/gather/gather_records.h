@@ -25,19 +25,11 @@ struct GatherRaysArguments {
   uint padding;
 };
 
-/// Writes the field queries at the hits of rays.
-struct RayQueriesArguments {
-  LitPointArray points;
-  QueryArray queries;
-  uint count;
-  uint padding;
-};
-
 /// Makes the rays of secondary gathers at the hits of rays, and writes their indices.
 struct SecondaryRaysArguments {
-  RayArray gathering_rays;  ///< Or those of the secondary gathers before.
-  LitPointArray points;     ///< The hits of these rays.
-  ShadedHitArray shaded;    ///< Those hits.
+  RayArray rays_before;     ///< The rays at whose hits they start.
+  LitPointArray points;     ///< Those hits.
+  ShadedHitArray shaded;    ///< Their shading.
   UintArray first_indices;  ///< Index of each pixel's first ray.
   GridArray grids;
   RayArray rays;

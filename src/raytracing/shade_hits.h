@@ -20,8 +20,8 @@ struct ShadedHit {
   LitPoint point;
   ShadedHitRecord surface;
   glm::vec3 direct_irradiance;  ///< From lights and emissive surfaces [W/m^2].
-  /// The nearest of the lights that were drawn, whether occluded or not [m]; infinite: there is
-  /// none.
+  /// Distance from the point to the nearest light drawn there that would shine on it if nothing
+  /// were in the way [m]; infinite: none would.
   float light_distance = kInfiniteDistance;
 };
 

@@ -2,6 +2,7 @@
 // Hits become surfaces and are lit directly, on the host and on a device.
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -71,6 +72,7 @@ void expect_same_shading(const vulkan::Device& device, const World& world, const
       albedo("albedo", texture_tolerance);
   // Emitters are always read at full resolution
   Agreement radiance("radiance", texture_tolerance), light("irradiance", kFilterTolerance);
+  Agreement light_distances("distances of lights", kTolerance);
   std::size_t lit = 0, mirrored = 0;
   for (std::size_t i = 0; i < host.size(); ++i) {
     const ShadedHitRecord& device_hit = found.shaded[i];
@@ -87,6 +89,10 @@ void expect_same_shading(const vulkan::Device& device, const World& world, const
         {host[i].surface.mirror_distance, host[i].surface.gi_share, point.viewer_distance},
         {device_hit.mirror_distance, device_hit.gi_share, found.points[i].viewer_distance}, i);
     light.compare(host[i].direct_irradiance, found.irradiance[i], i);
+    const float nearest = host[i].light_distance, found_nearest = found.points[i].light_distance;
+    if (!std::isinf(nearest) || !std::isinf(found_nearest)) {
+      light_distances.compare(glm::vec3(nearest), glm::vec3(found_nearest), i);
+    }
     if (host[i].direct_irradiance != glm::vec3(0.0f)) ++lit;
     if (host[i].surface.mirror_distance > 0.0f) ++mirrored;
   }
@@ -94,6 +100,7 @@ void expect_same_shading(const vulkan::Device& device, const World& world, const
     each->expect(kUndecidedShare);
   }
   light.expect(kUndecidedLightShare);
+  light_distances.expect(kUndecidedLightShare);
   EXPECT_GT(shadow_rays, 0u);
   EXPECT_GT(lit, host.size() / 20);
   if (mirrored_hits != nullptr) *mirrored_hits = mirrored;

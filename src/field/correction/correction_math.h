@@ -131,8 +131,9 @@ LAMBENT_FN vec3 correction_pick(ProbeGrid grid, vec3 position_ws) {
   return hash_of_place(correction_coords(grid, position_ws));
 }
 
-/// `pick` without its part along the axis (correction_axis()) that a surface faces: cells before
-/// and behind the surface have learned nothing.
+/// `pick` that stays in the point's layer of cells along the axis (correction_axis()) which the
+/// surface faces: unless the surface is slanted, the next layers are in the air or in the wall, and
+/// have learned nothing.
 LAMBENT_FN vec3 pick_along_surface(vec3 pick, uint axis) {
   pick[axis % 3u] = 0.5f;
   return pick;

@@ -70,8 +70,9 @@ struct TrainingRaysArguments {
   uint unused;
 };
 
-/// Arguments of training_queries, which writes field queries for the hits of the rays.
-struct TrainingQueriesArguments {
+/// Arguments of hit_queries, which writes field queries for the hits of rays. Lookups skip those of
+/// rays that were not traced.
+struct HitQueriesArguments {
   LitPointArray hit_points;
   RayArray rays;
   QueryArray queries;

@@ -102,7 +102,7 @@ void DeviceTraining::record_gather(Recorder& to, const DeviceWorld& world, std::
                       kTrainingRays, training_shading(field_.settings(), number_),
                       {{hit_points_.address()}, {shaded_.address()}, {direct_.address()}});
   to.run(kernels_.queries,
-         TrainingQueriesArguments{
+         HitQueriesArguments{
              {hit_points_.address()}, {rays_.address()}, {hit_queries_.address()}, rays, 0u},
          rays);
   to.barrier();

@@ -18,6 +18,7 @@
 #include "shaders/gather_comp.h"
 #include "shaders/gutters_comp.h"
 #include "shaders/hit_distances_comp.h"
+#include "shaders/hit_queries_comp.h"
 #include "shaders/lookup_comp.h"
 #include "shaders/make_surfels_comp.h"
 #include "shaders/move_distances_comp.h"
@@ -33,7 +34,6 @@
 #include "shaders/surfel_distances_comp.h"
 #include "shaders/test_corners_comp.h"
 #include "shaders/training_points_comp.h"
-#include "shaders/training_queries_comp.h"
 #include "shaders/training_rays_comp.h"
 #include "shaders/training_samples_comp.h"
 #include "vulkan/device.h"
@@ -144,7 +144,7 @@ TrainingKernels::TrainingKernels(const vulkan::Device& device, const FieldSettin
   };
   points = make(shaders::training_points_comp(), "training_points");
   rays = make(shaders::training_rays_comp(), "training_rays");
-  queries = make(shaders::training_queries_comp(), "training_queries");
+  queries = make(shaders::hit_queries_comp(), "hit_queries");
   samples = make(shaders::training_samples_comp(), "training_samples");
 }
 

@@ -20,7 +20,7 @@ void main() {
   uint index = args.first_indices.at[i / args.rays_per_pixel] + i % args.rays_per_pixel;
   args.indices.at[i] = index;
   args.rays.at[i] = no_ray();
-  if (args.gathering_rays.at[i].mask == 0u || !reads_field(args.shaded.at[i])) return;
+  if (args.rays_before.at[i].mask == 0u || !reads_field(args.shaded.at[i])) return;
   LitPointRecord point = args.points.at[i];
   SecondaryRay drawn = secondary_ray(
       point.position_ws, point.normal_ws, point.geometric_normal_ws,

@@ -18,7 +18,8 @@ void main() {
   RayRecord ray = args.rays.at[i];
   HitRecord hit = args.hits.at[i];
   LitPointRecord point = LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws,
-                                        kNoDirectLight, 0u, vec3(0.0f), 0.0f, 0.0f);
+                                        kNoDirectLight, 0u, vec3(0.0f), 0.0f,
+                                        uintBitsToFloat(kMissedDistanceBits));
   PixelSurfaceRecord pixel = PixelSurfaceRecord(
       lambert_reflectance(vec3(0.0f)), vec3(0.0f), -ray.direction_ws, no_transmission(),
       RayCone(0.0f, 0.0f), kSurfaceMissed, 0.0f, CoatShares(0.0f, 0.0f), hit.sample_weight,
@@ -34,7 +35,8 @@ void main() {
     Footprint footprint = {width_at(args.cones.at[i], hit.distance), 1u};
     Surface surface = surface_at(args.scene, ray.direction_ws, hit, footprint);
     point = LitPointRecord(surface.position_ws, surface.normal_ws, surface.geometric_normal_ws,
-                           args.first_index + i, 0u, vec3(0.0f), 0.0f, 0.0f);
+                           args.first_index + i, 0u, vec3(0.0f), 0.0f,
+                           uintBitsToFloat(kMissedDistanceBits));
     pixel.reflectance = surface.reflectance;
     pixel.emission = surface.emission;
     MaterialRecord material = fetch_material(args.scene, surface.material);

@@ -25,7 +25,7 @@ struct LitPointRecord {
   uint albedo_shape;         ///< See LitPoint.
   vec3 to_viewer_ws;         ///< Unit; read where there is a shape, and by lookups.
   float viewer_distance;     ///< Length of the unoccluded segment towards the viewer [m].
-  float light_distance;      ///< See ShadedHit; written as its light is drawn.
+  float light_distance;      ///< See ShadedHit; infinite until light_irradiance draws it.
 };
 
 /// The surface that a camera ray hit, without its point; see Surface in surface_math.h.

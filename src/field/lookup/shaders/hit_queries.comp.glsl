@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes field queries for the hits of the rays from which corrections are learned, one lane per
-// ray.
+// Writes field queries for the hits of rays, one lane per ray.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/correction/correction_records.h"
@@ -8,7 +7,7 @@
 
 layout(local_size_x = kGroupLanes) in;
 layout(push_constant, scalar) uniform Push {
-  TrainingQueriesArguments args;
+  HitQueriesArguments args;
 };
 
 void main() {
