@@ -18,7 +18,6 @@
 #include "compose/motion_records.h"
 #include "compose/pixel_math.h"
 #include "denoise/denoise_vulkan.h"
-#include "field/correction/correction_records.h"
 #include "field/correction/correction_use.h"
 #include "fog/fog_records.h"
 #include "gather/gather_math.h"

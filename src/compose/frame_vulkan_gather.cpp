@@ -5,6 +5,7 @@
 
 #include "compose/frame_vulkan.h"
 #include "field/probes/volumes.h"
+#include "field/vulkan/device_arguments.h"
 #include "lambent/field.h"
 #include "raytracing/emitter_sampling.h"
 

@@ -82,8 +82,8 @@ LAMBENT_FN vec3 gathered_irradiance(float above, vec3 geometric_normal_ws, vec3 
   return (kPi * above) * gathered_radiance(hit, direct, field);
 }
 
-/// Irradiance at the hit of a ray that its secondary gather stands for. The hit's share
-/// of indirect light is left to gathered_radiance().
+/// Irradiance at the hit of a ray that its secondary gather stands for. The hit's share of indirect
+/// light is left to gathered_radiance().
 LAMBENT_FN vec3 secondary_irradiance(vec3 normal_ws, vec3 geometric_normal_ws, vec3 direction_ws,
                                      ShadedHitRecord hit, vec3 direct, vec3 field) {
   float above = above_horizon(1.0f, dot(normal_ws, geometric_normal_ws));

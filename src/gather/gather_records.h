@@ -44,12 +44,12 @@ struct SecondaryRaysArguments {
 
 /// Replaces lookups at the hits of rays by what secondary gathers found there.
 struct SecondaryLightArguments {
-  LitPointArray points;  ///< The hits of the rays.
+  LitPointArray points;  ///< Those hits.
   RayArray rays;         ///< Of the secondary gathers, as are the next three.
   ShadedHitArray shaded;
   Vec3Array direct;
   Vec3Array field;
-  Vec3Array replaced;  ///< Irradiance at the hits of the rays from the field.
+  Vec3Array replaced;  ///< Irradiance from the field at those hits.
   uint count;
   uint padding;
 };

@@ -174,7 +174,8 @@ TEST(UnseenRoom, UnderTubesGathersTheLightOfTheirHousings) {
   const Metrics metrics =
       compare_images(*image.find("irradiance"), *reference.find("irradiance"), {}).value();
   std::printf("mean ratio %.4f\n", metrics.mean_ratio);
-  // Five bounces between a tube and its housing are found, and a tenth of the light takes more
+  // Measured: 0.878; 0.799 where no secondary gather follows another, and 0.806 where none starts
+  // beside lamps. Paths between a tube and its housing end after five bounces
   EXPECT_GE(metrics.mean_ratio, 0.86);
   EXPECT_LE(metrics.mean_ratio, 1.02);
 }

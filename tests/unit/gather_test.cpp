@@ -122,7 +122,7 @@ float gathered_light(int probes, int updates) {
 }
 
 TEST(Gather, SecondaryGathersSupplyLightThatTheFieldLacks) {
-  // Fields without light leave that of one bounce, and of a second one in secondary gathers
+  // Fields without light leave that of one bounce, and of further ones in secondary gathers
   const float dense = gathered_light(48, 0), sparse = gathered_light(2, 0);
   EXPECT_GT(sparse, 1.2f * dense);
   EXPECT_LT(sparse, 2.0f * dense);

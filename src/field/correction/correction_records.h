@@ -70,16 +70,6 @@ struct TrainingRaysArguments {
   uint unused;
 };
 
-/// Arguments of hit_queries, which writes field queries for the hits of rays. Lookups skip those of
-/// rays that were not traced.
-struct HitQueriesArguments {
-  LitPointArray hit_points;
-  RayArray rays;
-  QueryArray queries;
-  uint count;
-  uint unused;
-};
-
 /// Arguments of training_samples, which compares the gathered irradiance of points with that of
 /// lookups, and then replaces each point by the hit of one of its rays.
 struct TrainingSamplesArguments {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "field/correction/train_math.h"
+#include "field/vulkan/device_arguments.h"
 #include "vulkan/device_memory.h"
 
 namespace lambent {

@@ -334,5 +334,15 @@ struct LookupArguments {
   CorrectionArrays corrections;  ///< None: lookups are not corrected.
 };
 
+/// Arguments of hit_queries, which writes a query for the hit of each ray. Those of rays that were
+/// not traced have a normal of 0, which lookups by rays skip; their answers are not to be read.
+struct HitQueriesArguments {
+  LitPointArray hit_points;
+  RayArray rays;
+  QueryArray queries;
+  uint count;
+  uint unused;
+};
+
 LAMBENT_END
 #endif

@@ -2,7 +2,6 @@
 // Writes field queries for the hits of rays, one lane per ray.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "field/correction/correction_records.h"
 #include "field/vulkan/device_arguments.h"
 
 layout(local_size_x = kGroupLanes) in;
@@ -15,7 +14,7 @@ void main() {
   if (i >= args.count) return;
   LitPointRecord point = args.hit_points.at[i];
   RayRecord ray = args.rays.at[i];
-  // Lookups skip a query with a normal of 0
+  // Lookups by rays skip a query with a normal of 0
   vec3 normal_ws = ray.mask != 0u ? point.normal_ws : vec3(0.0);
   args.queries.at[i] =
       QueryRecord(point.position_ws, normal_ws, point.to_viewer_ws, point.viewer_distance);
