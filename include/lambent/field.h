@@ -109,7 +109,7 @@ struct FieldSettings {
   /// Upper bound of the mean albedo of surfels over all directions, so that light always dies out,
   /// 0 to 0.99. A bound below the albedo of the surfaces makes rooms too dark. Albedos of
   /// hits that engines hand in are bounded one by one.
-  float max_albedo = 0.95f;
+  float max_albedo = 0.98f;
 
   /// Samples of emissive triangles, and of point and spot lights where there are many, for a
   /// surfel's direct light, 1 to 64. Each costs a shadow ray.

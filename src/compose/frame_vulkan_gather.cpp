@@ -52,8 +52,6 @@ void FramePassesVulkan::light_gathers(const GatherBuffers& gathers, std::uint32_
                                        0u};
     to.run(kernels_.hit_queries, asked, count);
   });
-  look_up("gather", *request_->sources.field, memory_.queries, count, CorrectionUse::picked,
-          gathers.field);
 }
 
 void FramePassesVulkan::draw_gathers(const GatheredPixels& pixels) {
@@ -86,9 +84,11 @@ void FramePassesVulkan::draw_secondary_gathers(const GatheredPixels& pixels, int
                                           {before.points.address()},
                                           {before.shaded.address()},
                                           {m.gathering_indices.address()},
+                                          {m.queries.address()},
                                           {m.field_grids.address()},
                                           {m.gathers[depth].rays.address()},
                                           {m.secondary_indices.address()},
+                                          {},
                                           volumes,
                                           pixels.rays(),
                                           pixels.rays_per_pixel,
@@ -167,9 +167,13 @@ void FramePassesVulkan::gather() {
     light_gathers(m.gathers[0], pixels.rays(), m.gathering_indices, rays_per_pixel, shading);
     for (int depth = 1; depth <= kMaxSecondaryRays; ++depth) {
       draw_secondary_gathers(pixels, static_cast<int>(grids.size()), depth);
+      look_up("gather", field, m.queries, pixels.rays(), CorrectionUse::picked,
+              m.gathers[depth - 1].field);
       shading.salt = gather_salt(sample_, depth);
       light_gathers(m.gathers[depth], pixels.rays(), m.secondary_indices, 1u, shading);
     }
+    look_up("gather", field, m.queries, pixels.rays(), CorrectionUse::picked,
+            m.gathers[kMaxSecondaryRays].field);
     sum_gathers(pixels);
   }
 }

@@ -25,35 +25,6 @@ struct GatherRaysArguments {
   uint padding;
 };
 
-/// Makes the rays of secondary gathers at the hits of rays, and writes their indices.
-struct SecondaryRaysArguments {
-  RayArray rays_before;     ///< The rays at whose hits they start.
-  LitPointArray points;     ///< Those hits.
-  ShadedHitArray shaded;    ///< Their shading.
-  UintArray first_indices;  ///< Index of each pixel's first ray.
-  GridArray grids;
-  RayArray rays;
-  UintArray indices;
-  int volumes;
-  uint count;
-  uint rays_per_pixel;
-  uint salt;  ///< See gather_salt().
-  uint seed;
-  uint padding;
-};
-
-/// Replaces lookups at the hits of rays by what secondary gathers found there.
-struct SecondaryLightArguments {
-  LitPointArray points;  ///< Those hits.
-  RayArray rays;         ///< Of the secondary gathers, as are the next three.
-  ShadedHitArray shaded;
-  Vec3Array direct;
-  Vec3Array field;
-  Vec3Array replaced;  ///< Irradiance from the field at those hits.
-  uint count;
-  uint padding;
-};
-
 /// Computes the irradiance of pixels from what their rays gathered.
 struct GatherSumArguments {
   LitPointArray points;        ///< One for each pixel of the band.

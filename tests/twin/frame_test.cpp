@@ -317,14 +317,14 @@ TEST_F(Frame, WithFilteredReflectionsIsTheSame) {
 TEST_F(Frame, WithFilteredLightBehindGlassIsTheSame) {
   Job job = small("");
   job.frame.denoise = true;
+  job.field.rays_per_probe = 64;  // one that rounding sends through glass then changes less
   for (const float roughness : {0.0f, 0.4f}) {
     for (const Material& floor : test::floors_to_show()) {
       for (const bool slab : {false, true}) {
         Scene scene = test::floor_behind_a_pane(floor, roughness, slab);
         if (slab) scene.environment = test::checkered_sky();
-        if (!slab) {
-          scene.lights.push_back(test::point_light(glm::vec3(0.5f), {0.3f, 1.0f, -0.5f}));
-        }
+        const Light lamp = test::point_light(glm::vec3(0.5f), {0.3f, 1.0f, -0.5f});
+        if (!slab) scene.lights.push_back(lamp);
         const Frames frames = render_both(scene, job);
         EXPECT_LE(relative_rmse(frames, "transmission"), kTolerance) << roughness << slab;
         EXPECT_LE(relative_rmse(frames, ""), kTolerance) << roughness << slab;

@@ -181,6 +181,20 @@ TEST(Corrections, CountQuietSamplesAsOneEach) {
   }
 }
 
+TEST(Corrections, AreTrustedHoweverMuchLightThereIsInNooks) {
+  constexpr float kRatio = 0.5f;
+  std::vector<CorrectionSample> samples = samples_on_floor(20000, [](float) { return kRatio; });
+  for (CorrectionSample& sample : samples) {
+    const bool lampshade = sample.position_ws.x > 2.9f;
+    if (lampshade) sample.gathered = 100.0f * sample.looked_up;
+    sample.variance = 0.1f * sample.gathered * sample.gathered;
+  }
+  const CorrectionTable table = taught(samples);
+  for (float x = -2.5f; x <= 1.0f; x += 0.25f) {
+    EXPECT_NEAR(read(table, {x, 0.01f, 0.4f}), kRatio, 0.02f) << x;
+  }
+}
+
 TEST(Corrections, AreTheSameWhereBlocksAreRemembered) {
   const CorrectionTable table =
       taught(samples_on_floor(20000, [](float x) { return 1.0f + 0.2f * x; }));

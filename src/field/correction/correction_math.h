@@ -208,9 +208,9 @@ const float kBrightestLookup = 8.0f;
 const float kBrightestGather = 256.0f;
 
 // A sample counts as one sample where the mean variance of gathers, divided by the square of the
-// lookup's irradiance, is this, and as a smaller number where that is larger. kSmoothPrior then
-// stands for a standard deviation of 11 % between cells and the level above them. Rooms with large
-// lamps have this variance, and those with small bright places ten times it.
+// irradiance that they or lookups find, is this, and as a smaller number where that is larger.
+// kSmoothPrior then stands for a standard deviation of 11 % between cells and the level above them.
+// Rooms with large lamps have this variance, and those with small bright places ten times it.
 const float kTypicalNoise = 0.1f;
 
 // The smallest number that a sample counts as, so that a cell's number of samples does not round to
@@ -218,7 +218,8 @@ const float kTypicalNoise = 0.1f;
 const float kLeastWorth = 1.0f / 32.0f;
 
 /// Sums over the samples of an update: of the variances of their gathers, and of the squares of
-/// their lookups.
+/// what their gathers or lookups find, whichever is more. Within a lampshade a gather finds
+/// hundreds of times as much as a lookup: its variance says nothing of the noise of other places.
 struct CorrectionNoise {
   float variances;
   float squares;
@@ -230,10 +231,12 @@ LAMBENT_FN float correction_scale(float looked_up, float mean) {
   return 1.0f / max(mean, looked_up * (1.0f / kBrightestLookup));
 }
 
-/// The terms of one sample in the sums of CorrectionNoise, from the variance of its gather.
-LAMBENT_FN CorrectionNoise correction_noise(float variance, float looked_up, float mean) {
+/// The terms of one sample in the sums of CorrectionNoise, from what its gather finds and the
+/// variance of that.
+LAMBENT_FN CorrectionNoise correction_noise(float gathered, float variance, float looked_up,
+                                            float mean) {
   float scale = correction_scale(looked_up, mean);
-  float level = looked_up * scale;
+  float level = max(looked_up * scale, min(gathered * scale, kBrightestGather));
   CorrectionNoise noise = {min(variance * (scale * scale), kBrightestGather * kBrightestGather),
                            level * level};
   return noise;

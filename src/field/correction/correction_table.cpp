@@ -78,7 +78,8 @@ LAMBENT_FORCE_INLINE const CorrectionItem& fetch_item(const Learning& table, uin
 float worth_of(std::span<const CorrectionSample> samples, float mean) {
   double variances = 0.0, squares = 0.0;
   for (const CorrectionSample& sample : samples) {
-    const CorrectionNoise noise = correction_noise(sample.variance, sample.looked_up, mean);
+    const CorrectionNoise noise =
+        correction_noise(sample.gathered, sample.variance, sample.looked_up, mean);
     variances += noise.variances;
     squares += noise.squares;
   }

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "field/correction/train_math.h"
+#include "field/secondary/secondary_math.h"
+#include "field/secondary/secondary_records.h"
 #include "field/vulkan/device_arguments.h"
 #include "vulkan/device_memory.h"
 
@@ -15,7 +17,7 @@ using vulkan::Memory;
 using vulkan::Recorder;
 
 // The number of points whose rays are in memory at a time: 65,536 rays keep any device busy, and
-// take about 15 MB.
+// take about 15 MB for each depth.
 constexpr std::uint32_t kPointsAtATime = 8192;
 constexpr std::uint32_t kRaysAtATime = kPointsAtATime * kTrainingRays;
 
@@ -40,14 +42,17 @@ DeviceTraining::DeviceTraining(FieldResources& field)
   lookups_ = room_for<SurfelLookup>(
       device, static_cast<std::size_t>(field.lookups_per_surfel()) * kPointsAtATime,
       "lookups to learn from");
-  rays_ = room_for<RayRecord>(device, kRaysAtATime, "rays to learn by");
+  for (Gathers& gathers : gathers_) {
+    gathers = {room_for<RayRecord>(device, kRaysAtATime, "rays to learn by"),
+               room_for<LitPointRecord>(device, kRaysAtATime, "points to learn from"),
+               room_for<ShadedHitRecord>(device, kRaysAtATime, "surfaces to learn from"),
+               room_for<vec3>(device, kRaysAtATime, "direct light to learn from"),
+               room_for<vec3>(device, kRaysAtATime, "field to learn by")};
+  }
   first_indices_ = room_for<uint>(device, kPointsAtATime, "indices of rays to learn by");
+  following_indices_ = room_for<uint>(device, kRaysAtATime, "indices of rays that follow");
   hits_ = room_for<HitRecord>(device, kRaysAtATime, "hits to learn by");
-  hit_points_ = room_for<LitPointRecord>(device, kRaysAtATime, "points to learn from");
-  shaded_ = room_for<ShadedHitRecord>(device, kRaysAtATime, "surfaces to learn from");
-  direct_ = room_for<vec3>(device, kRaysAtATime, "direct light to learn from");
   hit_queries_ = room_for<QueryRecord>(device, kRaysAtATime, "queries to learn by");
-  arrives_ = room_for<vec3>(device, kRaysAtATime, "field to learn by");
   ray_count_ = room_for<uint>(device, 1, "count of rays to learn by");
   const auto counter = [&](const char* name) {
     return vulkan::Buffer(device, sizeof(uint), Memory::readback, name);
@@ -58,9 +63,14 @@ DeviceTraining::DeviceTraining(FieldResources& field)
 }
 
 std::size_t DeviceTraining::bytes() const {
-  return bytes_of({&trained_, &samples_, &points_, &queries_, &lookups_, &rays_, &first_indices_,
-                   &hits_, &hit_points_, &shaded_, &direct_, &hit_queries_, &arrives_,
-                   &ray_count_});
+  std::size_t bytes =
+      bytes_of({&trained_, &samples_, &points_, &queries_, &lookups_, &first_indices_,
+                &following_indices_, &hits_, &hit_queries_, &ray_count_});
+  for (const Gathers& gathers : gathers_) {
+    bytes += bytes_of(
+        {&gathers.rays, &gathers.points, &gathers.shaded, &gathers.direct, &gathers.arrives});
+  }
+  return bytes;
 }
 
 void DeviceTraining::begin(std::span<const TrainingSurfel> surfels, uint number) {
@@ -79,14 +89,68 @@ void DeviceTraining::begin(std::span<const TrainingSurfel> surfels, uint number)
   field_.corrections().reserve(samples);
 }
 
-/// Records the gathers of the points in memory: their rays, and the light at the rays' hits.
+/// Records the direct light at the hits of the rays of a depth, and the queries of the field there.
+void DeviceTraining::record_light(Recorder& to, const DeviceWorld& world, std::uint32_t rays,
+                                  int depth) {
+  const Gathers& gathers = gathers_[depth];
+  const DeviceHits hits{{gathers.rays.address()}, {hits_.address()}, rays};
+  world.tracer().closest_hits(to, {hits.rays, rays}, hits.hits);
+  to.barrier();
+  ShadeHitsSettings shading = training_shading(field_.settings(), number_);
+  shading.salt = gather_salt(shading.salt, depth);
+  const vulkan::Buffer& indices = depth == 0 ? first_indices_ : following_indices_;
+  shading_.shade_hits(
+      to, {world.scene(), world.tracer()}, hits, {indices.address()},
+      depth == 0 ? kTrainingRays : 1, shading,
+      {{gathers.points.address()}, {gathers.shaded.address()}, {gathers.direct.address()}});
+  to.run(
+      kernels_.queries,
+      HitQueriesArguments{
+          {gathers.points.address()}, {gathers.rays.address()}, {hit_queries_.address()}, rays, 0u},
+      rays);
+  to.barrier();
+}
+
+/// Records the lookups at the hits of the rays of a depth, whose queries are in memory.
+void DeviceTraining::record_lookup(Recorder& to, const DeviceWorld& world, std::uint32_t rays,
+                                   int depth) {
+  field_.record_lookup(to, {hit_queries_.address()}, rays, {gathers_[depth].arrives.address()},
+                       &world.tracer(), field_.corrections().arrays(CorrectionUse::picked));
+}
+
+/// Records the rays of the secondary gathers of a depth.
+void DeviceTraining::record_following(Recorder& to, std::uint32_t rays, int depth) {
+  const Gathers& before = gathers_[depth - 1];
+  const ShadeHitsSettings shading = training_shading(field_.settings(), number_);
+  to.run(kernels_.secondary_rays,
+         SecondaryRaysArguments{{before.rays.address()},
+                                {before.points.address()},
+                                {before.shaded.address()},
+                                {first_indices_.address()},
+                                {hit_queries_.address()},
+                                {field_.grids().address()},
+                                {gathers_[depth].rays.address()},
+                                {following_indices_.address()},
+                                {ray_count_.address()},
+                                field_.volumes(),
+                                rays,
+                                kTrainingRays,
+                                gather_salt(shading.salt, depth),
+                                shading.seed,
+                                1u},
+         rays);
+  to.barrier();
+}
+
+/// Records the gathers of the points in memory: their rays, the light at the rays' hits, and the
+/// secondary gathers there.
 void DeviceTraining::record_gather(Recorder& to, const DeviceWorld& world, std::uint32_t count) {
   const uint seed = field_.settings().seed;
   const std::uint32_t rays = count * kTrainingRays;
   to.run(kernels_.rays,
          TrainingRaysArguments{{points_.address()},
                                {queries_.address()},
-                               {rays_.address()},
+                               {gathers_[0].rays.address()},
                                {first_indices_.address()},
                                {ray_count_.address()},
                                count,
@@ -96,19 +160,28 @@ void DeviceTraining::record_gather(Recorder& to, const DeviceWorld& world, std::
          count);
   to.barrier();
   to.bind_textures(world.scene().textures());
-  const DeviceHits hits{{rays_.address()}, {hits_.address()}, rays};
-  world.tracer().closest_hits(to, {hits.rays, rays}, hits.hits);
-  to.barrier();
-  shading_.shade_hits(to, {world.scene(), world.tracer()}, hits, {first_indices_.address()},
-                      kTrainingRays, training_shading(field_.settings(), number_),
-                      {{hit_points_.address()}, {shaded_.address()}, {direct_.address()}});
-  to.run(kernels_.queries,
-         HitQueriesArguments{
-             {hit_points_.address()}, {rays_.address()}, {hit_queries_.address()}, rays, 0u},
-         rays);
-  to.barrier();
-  field_.record_lookup(to, {hit_queries_.address()}, rays, {arrives_.address()}, &world.tracer(),
-                       field_.corrections().arrays(CorrectionUse::picked));
+  record_light(to, world, rays, 0);
+  for (int depth = 1; depth <= kMaxTrainingFollows; ++depth) {
+    record_following(to, rays, depth);
+    record_lookup(to, world, rays, depth - 1);
+    record_light(to, world, rays, depth);
+  }
+  record_lookup(to, world, rays, kMaxTrainingFollows);
+  // From the last rays back to the first
+  for (int depth = kMaxTrainingFollows; depth > 0; --depth) {
+    const Gathers &before = gathers_[depth - 1], &following = gathers_[depth];
+    to.run(kernels_.secondary_light,
+           SecondaryLightArguments{{before.points.address()},
+                                   {following.rays.address()},
+                                   {following.shaded.address()},
+                                   {following.direct.address()},
+                                   {following.arrives.address()},
+                                   {before.arrives.address()},
+                                   rays,
+                                   0u},
+           rays);
+    to.barrier();
+  }
 }
 
 /// Records the samples of the points in memory, and the replacement of each point by the hit of one
@@ -117,16 +190,17 @@ void DeviceTraining::record_compare(Recorder& to, const DeviceWorld& world, std:
                                     std::size_t first_sample) {
   field_.record_find_lookups(to, {queries_.address()}, count, {lookups_.address()},
                              &world.tracer());
+  const Gathers& first = gathers_[0];
   const std::uint64_t samples = samples_.address() + first_sample * sizeof(CorrectionSampleRecord);
   to.run(kernels_.samples,
          TrainingSamplesArguments{field_.store(),
                                   {points_.address()},
                                   {queries_.address()},
-                                  {rays_.address()},
-                                  {hit_points_.address()},
-                                  {shaded_.address()},
-                                  {direct_.address()},
-                                  {arrives_.address()},
+                                  {first.rays.address()},
+                                  {first.points.address()},
+                                  {first.shaded.address()},
+                                  {first.direct.address()},
+                                  {first.arrives.address()},
                                   {lookups_.address()},
                                   {samples},
                                   count,

@@ -3,11 +3,13 @@
 // train_corrections().
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "field/correction/train_corrections.h"
+#include "field/correction/train_math.h"
 #include "field/vulkan/field_resources.h"
 #include "raytracing/vulkan/device_world.h"
 #include "raytracing/vulkan/hit_shading.h"
@@ -29,7 +31,15 @@ class DeviceTraining {
   std::size_t bytes() const;
 
  private:
+  /// Rays of one depth (see gather_salt()), and what they find.
+  struct Gathers {
+    vulkan::Buffer rays, points, shaded, direct, arrives;
+  };
+
   void record_gather(vulkan::Recorder& to, const DeviceWorld& world, std::uint32_t count);
+  void record_light(vulkan::Recorder& to, const DeviceWorld& world, std::uint32_t rays, int depth);
+  void record_following(vulkan::Recorder& to, std::uint32_t rays, int depth);
+  void record_lookup(vulkan::Recorder& to, const DeviceWorld& world, std::uint32_t rays, int depth);
   void record_compare(vulkan::Recorder& to, const DeviceWorld& world, std::uint32_t count,
                       std::size_t first_sample);
 
@@ -41,8 +51,8 @@ class DeviceTraining {
   vulkan::Buffer trained_, samples_;
   // Entries of the points that are processed together, and of their rays
   vulkan::Buffer points_, queries_, lookups_;
-  vulkan::Buffer rays_, first_indices_, hits_, hit_points_, shaded_, direct_, hit_queries_,
-      arrives_;
+  std::array<Gathers, 1 + kMaxTrainingFollows> gathers_;
+  vulkan::Buffer first_indices_, following_indices_, hits_, hit_queries_;
   vulkan::Buffer ray_count_, rays_read_, shadow_rays_read_, lookup_rays_read_;
 };
 

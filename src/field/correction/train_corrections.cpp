@@ -9,7 +9,7 @@
 #include "core/parallel.h"
 #include "field/correction/train_math.h"
 #include "field/lookup/query_at.h"
-#include "raytracing/world_access.h"
+#include "field/secondary/gathering_rays.h"
 #include "shared/color.h"
 #include "shared/rays.h"
 
@@ -30,8 +30,8 @@ struct TrainingPoint {
 struct Training {
   const World& world;
   const ProbeData& data;
-  VisibilityRays corrected, uncorrected;
-  ShadeHitsSettings shading;
+  VisibilityRays uncorrected;
+  HitLighting lighting;  // of the hits of gathering rays, by corrected lookups
   uint number, seed;
 };
 
@@ -53,81 +53,45 @@ std::vector<TrainingPoint> points_of(const Training& training, std::span<const i
   return points;
 }
 
-/// The rays of points' gathers, and their radiance.
-struct Gathers {
-  std::vector<Ray> rays;
-  std::vector<ShadedHit> shaded;
-  std::vector<vec3> arrives;  // the field's irradiance at the rays' hits
-  std::uint64_t traced = 0;
+using GathersRef = const GatheringRays&;
 
-  vec3 radiance(std::size_t ray) const {
-    return gathered_radiance(shaded[ray].surface, shaded[ray].direct_irradiance, arrives[ray]);
-  }
-};
-
-using GathersRef = const Gathers&;
-
-const vec3& fetch_direction(const Gathers& gathers, uint ray) {
+const vec3& fetch_direction(const GatheringRays& gathers, uint ray) {
   return gathers.rays[ray].direction;
 }
-const ShadedHitRecord& fetch_hit(const Gathers& gathers, uint ray) {
+const ShadedHitRecord& fetch_hit(const GatheringRays& gathers, uint ray) {
   return gathers.shaded[ray].surface;
 }
-vec3 fetch_radiance(const Gathers& gathers, uint ray) {
-  return gathers.radiance(ray);
+vec3 fetch_radiance(const GatheringRays& gathers, uint ray) {
+  const ShadedHit& hit = gathers.shaded[ray];
+  return gathered_radiance(hit.surface, hit.direct_irradiance, gathers.arrives[ray]);
 }
 
 #include "field/correction/train.inl.h"
 
-void add_rays(const Training& training, const TrainingPoint& point, std::vector<Ray>& rays) {
+void add_rays(const Training& training, const TrainingPoint& point, GatheringRays& gathers) {
   const Frame frame = make_frame(point.at.normal_ws);
   const vec3 origin = offset_ray_origin(point.at.position_ws, point.geometric_normal_ws);
   for (int ray = 0; ray < kTrainingRays; ++ray) {
-    rays.push_back({origin, 0.0f,
-                    training_direction(frame, point.index, training.number, ray, training.seed),
-                    kInfiniteDistance, kRayGathers});
+    gathers.rays.push_back(
+        {origin, 0.0f, training_direction(frame, point.index, training.number, ray, training.seed),
+         kInfiniteDistance, kRayGathers});
+    gathers.indices.push_back(std::size_t{point.index} * kTrainingRays +
+                              static_cast<std::size_t>(ray));
   }
 }
 
-/// Shades the hits of the rays. Points with consecutive indices are shaded together.
-std::uint64_t shade(const Training& training, std::span<const TrainingPoint> points,
-                    std::span<const Hit> hits, Gathers& gathers) {
+/// The rays of the points' gathers, and what they find. Adds the number of rays traced to `traced`.
+GatheringRays gather(const Training& training, std::span<const TrainingPoint> points,
+                     std::uint64_t& traced) {
+  GatheringRays gathers;
+  for (const TrainingPoint& point : points) add_rays(training, point, gathers);
   ShadeHitsScratch scratch;
-  std::uint64_t traced = 0;
-  for (std::size_t first = 0, end = 0; first < points.size(); first = end) {
-    for (end = first + 1; end < points.size(); ++end) {
-      if (points[end].index != points[end - 1].index + 1) break;
-    }
-    const std::size_t at = first * kTrainingRays, count = (end - first) * kTrainingRays;
-    traced += shade_hits(training.world, std::span(gathers.rays).subspan(at, count),
-                         hits.subspan(at, count), training.shading,
-                         std::size_t{points[first].index} * kTrainingRays, scratch,
-                         std::span(gathers.shaded).subspan(at, count));
-  }
-  return traced;
-}
-
-Gathers gather(const Training& training, std::span<const TrainingPoint> points) {
-  Gathers gathers;
-  for (const TrainingPoint& point : points) add_rays(training, point, gathers.rays);
-  const std::size_t count = gathers.rays.size();
-  std::vector<Hit> hits(count);
-  tracer_of(training.world).closest_hits(gathers.rays, hits);
-  gathers.shaded.resize(count);
-  gathers.traced = count + shade(training, points, hits, gathers);
-
-  std::vector<FieldQuery> queries(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    queries[i] = query_at(gathers.shaded[i].point);
-  }
-  gathers.arrives.resize(count);
-  gathers.traced +=
-      lookup_irradiance(training.data.store, training.corrected, queries, gathers.arrives);
+  traced += gathers.light(training.lighting, scratch);
   return gathers;
 }
 
 /// The hit of one of a point's rays as the next point. `first` is the index of the first ray.
-TrainingPoint following_point(const Training& training, const Gathers& gathers, uint first,
+TrainingPoint following_point(const Training& training, const GatheringRays& gathers, uint first,
                               uint index) {
   const uint ray = following_ray(gathers, first, index, training.number, training.seed);
   if (ray == kNoTrainingRay) return {};
@@ -139,7 +103,7 @@ TrainingPoint following_point(const Training& training, const Gathers& gathers, 
 /// Compares the gathered irradiance of each point with the lookups of the volumes that light it.
 /// Returns the number of visibility rays traced.
 std::uint64_t compare(const Training& training, std::span<const TrainingPoint> points,
-                      const Gathers& gathers, std::vector<CorrectionSample>& samples) {
+                      const GatheringRays& gathers, std::vector<CorrectionSample>& samples) {
   std::vector<FieldQuery> queries(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) queries[i] = points[i].at;
   QueryWeights weights;
@@ -251,8 +215,16 @@ ShadeHitsSettings training_shading(const FieldSettings& settings, uint number) {
 std::uint64_t train_corrections(const World& world, std::span<const int> probes,
                                 const VisibilityRays& by, uint number, ProbeData& data) {
   Training training{
-      world, data, by, by, training_shading(data.settings, number), number, data.settings.seed};
+      world,
+      data,
+      by,
+      {world, data.store.grids(), training_shading(data.settings, number), kMaxTrainingFollows, {}},
+      number,
+      data.settings.seed};
   training.uncorrected.correction = nullptr;
+  training.lighting.look_up = [&](std::span<const FieldQuery> queries, std::span<vec3> result) {
+    return lookup_irradiance(data.store, by, queries, result);
+  };
   const std::vector<TrainingPoint> points = points_of(training, probes);
   // Tasks are consecutive points of all ranks; this rank's points may begin within a task
   const std::size_t before = points_before(data.share.ranks(), points.size());
@@ -264,8 +236,9 @@ std::uint64_t train_corrections(const World& world, std::span<const int> probes,
     begin = max(begin, lead);
     const std::span<const TrainingPoint> own =
         std::span(points).subspan(begin - lead, end > begin ? end - begin : 0);
-    const Gathers gathers = gather(training, own);
-    traced += gathers.traced + compare(training, own, gathers, out);
+    std::uint64_t rays = 0;
+    const GatheringRays gathers = gather(training, own, rays);
+    rays += compare(training, own, gathers, out);
 
     std::vector<TrainingPoint> following;
     for (std::size_t i = 0; i < own.size(); ++i) {
@@ -273,8 +246,8 @@ std::uint64_t train_corrections(const World& world, std::span<const int> probes,
           following_point(training, gathers, static_cast<uint>(i * kTrainingRays), own[i].index);
       if (next.gi_share > 0.0f) following.push_back(next);
     }
-    const Gathers further = gather(training, following);
-    traced += further.traced + compare(training, following, further, out_following);
+    const GatheringRays further = gather(training, following, rays);
+    traced += rays + compare(training, following, further, out_following);
   });
   data.correction.learn(data.store.grids(),
                         joined(data.share.ranks(), samples, before / kPointsPerTask), number);

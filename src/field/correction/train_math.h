@@ -13,6 +13,11 @@ LAMBENT_BEGIN
 // Rays of a gather. Fewer rays at more points cost more lookups for the same noise.
 const int kTrainingRays = 8;
 
+// Secondary gathers that follow each of these rays at most (field/secondary/secondary_math.h).
+// Where lookups alone light the hits that are near, what corrections have learned there by chance
+// is learned again elsewhere, and grows: docs/math.md, "Corrections", measures 0 to 4.
+const int kMaxTrainingFollows = 2;
+
 // A gather starts at one in this many of an update's surfels, and a second one at the hit of one of
 // its rays, since surfels leave out surfaces that no probe ray reaches. The first updates fill the
 // coarse levels, also where some of them trace the noisiest probes alone (docs/performance.md), and

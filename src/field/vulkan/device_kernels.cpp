@@ -28,6 +28,8 @@
 #include "shaders/receive_comp.h"
 #include "shaders/scatter_importance_comp.h"
 #include "shaders/scatter_tiles_comp.h"
+#include "shaders/secondary_light_comp.h"
+#include "shaders/secondary_rays_comp.h"
 #include "shaders/solve_step_comp.h"
 #include "shaders/solve_sums_comp.h"
 #include "shaders/store_irradiance_comp.h"
@@ -145,6 +147,8 @@ TrainingKernels::TrainingKernels(const vulkan::Device& device, const FieldSettin
   points = make(shaders::training_points_comp(), "training_points");
   rays = make(shaders::training_rays_comp(), "training_rays");
   queries = make(shaders::hit_queries_comp(), "hit_queries");
+  secondary_rays = make(shaders::secondary_rays_comp(), "secondary_rays");
+  secondary_light = make(shaders::secondary_light_comp(), "secondary_light");
   samples = make(shaders::training_samples_comp(), "training_samples");
 }
 

@@ -54,7 +54,7 @@ struct TrainingKernels {
   TrainingKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
                   int lookups);
 
-  vulkan::Kernel points, rays, queries, samples;
+  vulkan::Kernel points, rays, queries, secondary_rays, secondary_light, samples;
 };
 
 }  // namespace lambent

@@ -42,7 +42,8 @@ void main() {
   for (uint i = lane; i < args.count; i += kLanes) {
     CorrectionSampleRecord drawn = args.samples.at[i];
     if (!(drawn.looked_up > 0.0)) continue;
-    CorrectionNoise noise = correction_noise(drawn.variance, drawn.looked_up, mean);
+    CorrectionNoise noise =
+        correction_noise(drawn.gathered, drawn.variance, drawn.looked_up, mean);
     sum += vec2(noise.variances, noise.squares);
   }
   all = sum_of_lanes(lane, sum);

@@ -2,8 +2,8 @@
 // Replaces lookups at the hits of rays by what secondary gathers found there.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "gather/gather_math.h"
-#include "gather/gather_records.h"
+#include "field/secondary/secondary_math.h"
+#include "field/secondary/secondary_records.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays that gather light on the processor, the light at their hits, and the secondary gathers that
+// follow them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "field/lookup/lookup_volumes.h"
+#include "field/probes/probe_grid.h"
+#include "raytracing/raytracer.h"
+#include "raytracing/shade_hits.h"
+
+namespace lambent {
+
+/// How the hits of gathering rays are lit.
+struct HitLighting {
+  const World& world;
+  std::span<const ProbeGrid> grids;  ///< Of the field's volumes, whose spacing nearness is told by.
+  /// Its salt is that of the gathering rays; see gather_salt().
+  ShadeHitsSettings shading;
+  int most_following = 0;  ///< Secondary gathers that may follow each ray; 0: none.
+  /// Looks up the field's irradiance [W/m^2]. Returns the number of rays traced.
+  std::function<std::uint64_t(std::span<const FieldQuery>, std::span<glm::vec3>)> look_up;
+};
+
+/// Rays, and what they found. After light(), all have the same length.
+struct GatheringRays {
+  std::vector<Ray> rays;
+  std::vector<std::size_t> indices;  ///< Among all rays of the picture or update.
+  std::vector<ShadedHit> shaded;
+  /// Indirect irradiance at the hits, from the field or by a secondary gather [W/m^2]; 0 where the
+  /// hit reflects none.
+  std::vector<glm::vec3> arrives;
+
+  /// Traces the rays and finds the light at their hits. Single-threaded. Returns the number of rays
+  /// traced.
+  std::uint64_t light(const HitLighting& by, ShadeHitsScratch& scratch);
+};
+
+}  // namespace lambent
