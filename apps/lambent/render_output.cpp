@@ -6,6 +6,7 @@
 
 #include "core/image/tone_map.h"
 #include "lambent/command_files.h"
+#include "lambent/console.h"
 #include "lambent/output.h"
 #include "lambent/parse.h"
 #include "lambent/quality.h"
@@ -92,6 +93,7 @@ bool PictureFile::needs_stops() const {
 }
 
 Expected<void> PictureFile::write(const LayeredImage& rows) {
+  black_ = black_ && std::ranges::all_of(rows.find("")->pixels, [](float v) { return v == 0.0f; });
   if (!has_ending(path_, ".exr")) {
     const Image& picture = *rows.find("");
     if (stops_) return show(picture);
@@ -149,6 +151,10 @@ Expected<void> PictureFile::show(const Image& rows) {
 }
 
 Expected<void> PictureFile::finish() {
+  // Frames of a sequence may well be
+  if (black_ && options_.frames == 0) {
+    warn("the picture is black: no light reaches what the camera sees");
+  }
   if (exr_) return exr_->finish();
   if (!kept_.empty()) {
     stops_ = luminances_.stops();

@@ -65,6 +65,7 @@ class PictureFile {
   std::optional<ExrWriter> exr_;
   std::optional<PngWriter> png_;
   std::optional<JpegWriter> jpeg_;
+  bool black_ = true;              // all rows so far
   Image kept_;                     // rows stored until the stops are known
   LuminanceHistogram luminances_;  // of the stored rows
 };

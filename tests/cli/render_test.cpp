@@ -188,6 +188,14 @@ TEST_F(Render, TellsHowMuchNoiseIsLeftInTheField) {
   EXPECT_THAT(render(picture, exr).errors, Not(HasSubstr("noise")));
 }
 
+TEST_F(Render, TellsThatAPictureIsBlack) {
+  const std::string rooms = "two-rooms-sealed --method direct --size 8x8 --camera ";
+  for (const std::string& file : {png, exr}) {
+    EXPECT_THAT(render(rooms + "roomB", file).errors, HasSubstr("the picture is black"));
+    EXPECT_THAT(render(rooms + "roomA", file).errors, Not(HasSubstr("black")));
+  }
+}
+
 struct BadUse {
   const char* name;
   const char* arguments;
