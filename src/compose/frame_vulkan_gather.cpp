@@ -46,6 +46,7 @@ void FramePassesVulkan::light_gathers(const GatherBuffers& gathers, std::uint32_
         rays_per_index, shading,
         {{gathers.points.address()}, {gathers.shaded.address()}, {gathers.direct.address()}});
     const HitQueriesArguments asked = {{gathers.points.address()},
+                                       {gathers.shaded.address()},
                                        {gathers.rays.address()},
                                        {memory_.queries.address()},
                                        count,

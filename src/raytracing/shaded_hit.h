@@ -64,11 +64,18 @@ LAMBENT_FN ShadedHitRecord seen_through_glass(ShadedHitRecord hit, vec3 share, f
   return hit;
 }
 
+/// Whether a lookup of the field at a hit adds to the light that its ray brings.
+LAMBENT_FN bool reads_field(ShadedHitRecord hit) {
+  return hit.gi_share > 0.0f && hit.albedo_over_pi != vec3(0.0f);
+}
+
 /// Radiance that a gathering ray contributes, without its hit's emission, which is direct light.
-/// `direct` and `field`: irradiance at the hit from lights and from the field.
+/// `direct` and `field`: irradiance at the hit from lights and from the field; the latter is read
+/// where the hit reads_field() alone.
 LAMBENT_FN vec3 gathered_radiance(ShadedHitRecord hit, vec3 direct, vec3 field) {
   bool sky = (hit.flags & kSurfaceMissed) != 0u;
-  return hit.albedo_over_pi * (direct + hit.gi_share * field) + (sky ? hit.radiance : vec3(0.0f));
+  vec3 indirect = reads_field(hit) ? hit.gi_share * field : vec3(0.0f);
+  return hit.albedo_over_pi * (direct + indirect) + (sky ? hit.radiance : vec3(0.0f));
 }
 
 LAMBENT_END

@@ -317,7 +317,7 @@ TEST_F(Frame, WithFilteredReflectionsIsTheSame) {
 TEST_F(Frame, WithFilteredLightBehindGlassIsTheSame) {
   Job job = small("");
   job.frame.denoise = true;
-  job.field.rays_per_probe = 64;  // one that rounding sends through glass then changes less
+  job.field.rays_per_probe = 64;  // of 32, one that crosses glass on one side alone is 1.4 %
   for (const float roughness : {0.0f, 0.4f}) {
     for (const Material& floor : test::floors_to_show()) {
       for (const bool slab : {false, true}) {

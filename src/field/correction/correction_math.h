@@ -208,9 +208,10 @@ const float kBrightestLookup = 8.0f;
 const float kBrightestGather = 256.0f;
 
 // A sample counts as one sample where the mean variance of gathers, divided by the square of the
-// irradiance that they or lookups find, is this, and as a smaller number where that is larger.
-// kSmoothPrior then stands for a standard deviation of 11 % between cells and the level above them.
-// Rooms with large lamps have this variance, and those with small bright places ten times it.
+// larger of the irradiance that they find and that of lookups, is this, and as a smaller number
+// where that is larger. kSmoothPrior then stands for a standard deviation of 11 % between cells and
+// the level above them. Rooms with large lamps have this variance, and those with small bright
+// places ten times it.
 const float kTypicalNoise = 0.1f;
 
 // The smallest number that a sample counts as, so that a cell's number of samples does not round to
@@ -219,7 +220,8 @@ const float kLeastWorth = 1.0f / 32.0f;
 
 /// Sums over the samples of an update: of the variances of their gathers, and of the squares of
 /// what their gathers or lookups find, whichever is more. Within a lampshade a gather finds
-/// hundreds of times as much as a lookup: its variance says nothing of the noise of other places.
+/// hundreds of times as much as a lookup: over the lookup's square alone, the variances of a few
+/// such gathers would outweigh those of all others.
 struct CorrectionNoise {
   float variances;
   float squares;

@@ -17,7 +17,7 @@ using vulkan::Memory;
 using vulkan::Recorder;
 
 // The number of points whose rays are in memory at a time: 65,536 rays keep any device busy, and
-// take about 15 MB for each depth.
+// take about 11 MB for each depth.
 constexpr std::uint32_t kPointsAtATime = 8192;
 constexpr std::uint32_t kRaysAtATime = kPointsAtATime * kTrainingRays;
 
@@ -50,7 +50,7 @@ DeviceTraining::DeviceTraining(FieldResources& field)
                room_for<vec3>(device, kRaysAtATime, "field to learn by")};
   }
   first_indices_ = room_for<uint>(device, kPointsAtATime, "indices of rays to learn by");
-  following_indices_ = room_for<uint>(device, kRaysAtATime, "indices of rays that follow");
+  secondary_indices_ = room_for<uint>(device, kRaysAtATime, "indices of rays that follow");
   hits_ = room_for<HitRecord>(device, kRaysAtATime, "hits to learn by");
   hit_queries_ = room_for<QueryRecord>(device, kRaysAtATime, "queries to learn by");
   ray_count_ = room_for<uint>(device, 1, "count of rays to learn by");
@@ -65,7 +65,7 @@ DeviceTraining::DeviceTraining(FieldResources& field)
 std::size_t DeviceTraining::bytes() const {
   std::size_t bytes =
       bytes_of({&trained_, &samples_, &points_, &queries_, &lookups_, &first_indices_,
-                &following_indices_, &hits_, &hit_queries_, &ray_count_});
+                &secondary_indices_, &hits_, &hit_queries_, &ray_count_});
   for (const Gathers& gathers : gathers_) {
     bytes += bytes_of(
         {&gathers.rays, &gathers.points, &gathers.shaded, &gathers.direct, &gathers.arrives});
@@ -98,16 +98,19 @@ void DeviceTraining::record_light(Recorder& to, const DeviceWorld& world, std::u
   to.barrier();
   ShadeHitsSettings shading = training_shading(field_.settings(), number_);
   shading.salt = gather_salt(shading.salt, depth);
-  const vulkan::Buffer& indices = depth == 0 ? first_indices_ : following_indices_;
+  const vulkan::Buffer& indices = depth == 0 ? first_indices_ : secondary_indices_;
   shading_.shade_hits(
       to, {world.scene(), world.tracer()}, hits, {indices.address()},
       depth == 0 ? kTrainingRays : 1, shading,
       {{gathers.points.address()}, {gathers.shaded.address()}, {gathers.direct.address()}});
-  to.run(
-      kernels_.queries,
-      HitQueriesArguments{
-          {gathers.points.address()}, {gathers.rays.address()}, {hit_queries_.address()}, rays, 0u},
-      rays);
+  to.run(kernels_.queries,
+         HitQueriesArguments{{gathers.points.address()},
+                             {gathers.shaded.address()},
+                             {gathers.rays.address()},
+                             {hit_queries_.address()},
+                             rays,
+                             0u},
+         rays);
   to.barrier();
 }
 
@@ -119,7 +122,7 @@ void DeviceTraining::record_lookup(Recorder& to, const DeviceWorld& world, std::
 }
 
 /// Records the rays of the secondary gathers of a depth.
-void DeviceTraining::record_following(Recorder& to, std::uint32_t rays, int depth) {
+void DeviceTraining::record_secondary_rays(Recorder& to, std::uint32_t rays, int depth) {
   const Gathers& before = gathers_[depth - 1];
   const ShadeHitsSettings shading = training_shading(field_.settings(), number_);
   to.run(kernels_.secondary_rays,
@@ -130,7 +133,7 @@ void DeviceTraining::record_following(Recorder& to, std::uint32_t rays, int dept
                                 {hit_queries_.address()},
                                 {field_.grids().address()},
                                 {gathers_[depth].rays.address()},
-                                {following_indices_.address()},
+                                {secondary_indices_.address()},
                                 {ray_count_.address()},
                                 field_.volumes(),
                                 rays,
@@ -161,14 +164,14 @@ void DeviceTraining::record_gather(Recorder& to, const DeviceWorld& world, std::
   to.barrier();
   to.bind_textures(world.scene().textures());
   record_light(to, world, rays, 0);
-  for (int depth = 1; depth <= kMaxTrainingFollows; ++depth) {
-    record_following(to, rays, depth);
+  for (int depth = 1; depth <= kMaxTrainingSecondaryRays; ++depth) {
+    record_secondary_rays(to, rays, depth);
     record_lookup(to, world, rays, depth - 1);
     record_light(to, world, rays, depth);
   }
-  record_lookup(to, world, rays, kMaxTrainingFollows);
+  record_lookup(to, world, rays, kMaxTrainingSecondaryRays);
   // From the last rays back to the first
-  for (int depth = kMaxTrainingFollows; depth > 0; --depth) {
+  for (int depth = kMaxTrainingSecondaryRays; depth > 0; --depth) {
     const Gathers &before = gathers_[depth - 1], &following = gathers_[depth];
     to.run(kernels_.secondary_light,
            SecondaryLightArguments{{before.points.address()},

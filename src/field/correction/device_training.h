@@ -38,7 +38,7 @@ class DeviceTraining {
 
   void record_gather(vulkan::Recorder& to, const DeviceWorld& world, std::uint32_t count);
   void record_light(vulkan::Recorder& to, const DeviceWorld& world, std::uint32_t rays, int depth);
-  void record_following(vulkan::Recorder& to, std::uint32_t rays, int depth);
+  void record_secondary_rays(vulkan::Recorder& to, std::uint32_t rays, int depth);
   void record_lookup(vulkan::Recorder& to, const DeviceWorld& world, std::uint32_t rays, int depth);
   void record_compare(vulkan::Recorder& to, const DeviceWorld& world, std::uint32_t count,
                       std::size_t first_sample);
@@ -51,8 +51,8 @@ class DeviceTraining {
   vulkan::Buffer trained_, samples_;
   // Entries of the points that are processed together, and of their rays
   vulkan::Buffer points_, queries_, lookups_;
-  std::array<Gathers, 1 + kMaxTrainingFollows> gathers_;
-  vulkan::Buffer first_indices_, following_indices_, hits_, hit_queries_;
+  std::array<Gathers, 1 + kMaxTrainingSecondaryRays> gathers_;
+  vulkan::Buffer first_indices_, secondary_indices_, hits_, hit_queries_;
   vulkan::Buffer ray_count_, rays_read_, shadow_rays_read_, lookup_rays_read_;
 };
 

@@ -214,13 +214,16 @@ ShadeHitsSettings training_shading(const FieldSettings& settings, uint number) {
 
 std::uint64_t train_corrections(const World& world, std::span<const int> probes,
                                 const VisibilityRays& by, uint number, ProbeData& data) {
-  Training training{
-      world,
-      data,
-      by,
-      {world, data.store.grids(), training_shading(data.settings, number), kMaxTrainingFollows, {}},
-      number,
-      data.settings.seed};
+  Training training{world,
+                    data,
+                    by,
+                    {world,
+                     data.store.grids(),
+                     training_shading(data.settings, number),
+                     kMaxTrainingSecondaryRays,
+                     {}},
+                    number,
+                    data.settings.seed};
   training.uncorrected.correction = nullptr;
   training.lighting.look_up = [&](std::span<const FieldQuery> queries, std::span<vec3> result) {
     return lookup_irradiance(data.store, by, queries, result);

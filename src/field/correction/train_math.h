@@ -14,9 +14,9 @@ LAMBENT_BEGIN
 const int kTrainingRays = 8;
 
 // Secondary gathers that follow each of these rays at most (field/secondary/secondary_math.h).
-// Where lookups alone light the hits that are near, what corrections have learned there by chance
-// is learned again elsewhere, and grows: docs/math.md, "Corrections", measures 0 to 4.
-const int kMaxTrainingFollows = 2;
+// Where lookups alone light the hits that are near, other cells learn what those there have learned
+// by chance, and it grows. docs/math.md, "Corrections", measures 1, 2 and 4.
+const int kMaxTrainingSecondaryRays = 2;
 
 // A gather starts at one in this many of an update's surfels, and a second one at the hit of one of
 // its rays, since surfels leave out surfaces that no probe ray reaches. The first updates fill the

@@ -18,8 +18,8 @@ struct FieldVolumes {
 
 /// Draws the secondary gathers of a depth (see gather_salt()) at the hits of the rays of the depth
 /// before. Returns these hits in rising order.
-std::vector<std::size_t> draw_following(const HitLighting& by, const GatheringRays& before,
-                                        int depth, GatheringRays& following) {
+std::vector<std::size_t> draw_secondary_rays(const HitLighting& by, const GatheringRays& before,
+                                             int depth, GatheringRays& following) {
   std::vector<std::size_t> parents;
   FieldVolumes volumes{by.grids};
   const int count = static_cast<int>(by.grids.size());
@@ -73,8 +73,8 @@ std::uint64_t light_depth(const HitLighting& by, int depth, ShadeHitsScratch& sc
       of.rays.size() + shade_hits(by.world, of.rays, hits, shading, of.indices, scratch, of.shaded);
   GatheringRays following;
   std::vector<std::size_t> parents;  // hits from which the following rays start
-  if (depth < by.most_following) {
-    parents = draw_following(by, of, depth + 1, following);
+  if (depth < by.max_secondary_rays) {
+    parents = draw_secondary_rays(by, of, depth + 1, following);
     traced += light_depth(by, depth + 1, scratch, following);
   }
   traced += look_up(by, parents, of);

@@ -3,13 +3,14 @@
 // follow them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
 
-#include "field/lookup/lookup_volumes.h"
 #include "field/probes/probe_grid.h"
+#include "lambent/field.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/shade_hits.h"
 
@@ -18,10 +19,11 @@ namespace lambent {
 /// How the hits of gathering rays are lit.
 struct HitLighting {
   const World& world;
-  std::span<const ProbeGrid> grids;  ///< Of the field's volumes, whose spacing nearness is told by.
+  /// Grids of the field's volumes. Hits are near where rays are shorter than their spacing.
+  std::span<const ProbeGrid> grids;
   /// Its salt is that of the gathering rays; see gather_salt().
   ShadeHitsSettings shading;
-  int most_following = 0;  ///< Secondary gathers that may follow each ray; 0: none.
+  int max_secondary_rays = 0;  ///< Secondary gathers that may follow each ray; 0: none.
   /// Looks up the field's irradiance [W/m^2]. Returns the number of rays traced.
   std::function<std::uint64_t(std::span<const FieldQuery>, std::span<glm::vec3>)> look_up;
 };

@@ -33,10 +33,11 @@ const int kMaxSecondaryRays = 4;
 // Multiples of this salt give the rays of each depth random numbers of their own.
 const uint kSecondarySalt = 0x85EBCA6Bu;
 
-/// The salt of rays of a depth, and of the light at their hits. The gathering rays have depth 0,
-/// and the secondary gathers that follow each other 1 to kMaxSecondaryRays.
-LAMBENT_FN uint gather_salt(uint sample_index, int depth) {
-  return sample_index ^ (uint(depth) * kSecondarySalt);
+/// The salt of rays of a depth, and of the light at their hits. The gathering rays have depth 0 and
+/// `salt`, which is the index of the sample or the number of the update; the secondary gathers that
+/// follow each other have the depths from 1 on.
+LAMBENT_FN uint gather_salt(uint salt, int depth) {
+  return salt ^ (uint(depth) * kSecondarySalt);
 }
 
 /// The probability of a secondary gather where what is nearest, the origin of the ray that ends
@@ -65,11 +66,6 @@ LAMBENT_FN SecondaryRay secondary_ray(vec3 position_ws, vec3 normal_ws, vec3 geo
   ray.origin_ws = offset_ray_origin(position_ws, geometric_normal_ws);
   ray.direction_ws = gather_direction(make_frame(normal_ws), next_uniform2(random));
   return ray;
-}
-
-/// Whether a lookup at a hit adds to what its ray gathers.
-LAMBENT_FN bool reads_field(ShadedHitRecord hit) {
-  return hit.gi_share > 0.0f && hit.albedo_over_pi != vec3(0.0f);
 }
 
 /// Irradiance that one ray gathers whose direction has density cosine over pi. `above` is

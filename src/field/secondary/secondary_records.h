@@ -8,8 +8,9 @@
 
 LAMBENT_BEGIN
 
-/// Makes the rays of secondary gathers at the hits of rays, and writes their indices. Removes the
-/// queries of these hits, which need no lookup.
+/// Makes the rays of secondary gathers at the hits of rays, and writes their indices. Gives the
+/// queries of these hits a normal of 0, which lookups by rays skip. Others answer them, and
+/// secondary_light replaces the answer.
 struct SecondaryRaysArguments {
   RayArray rays_before;     ///< The rays at whose hits they start.
   LitPointArray points;     ///< Those hits.

@@ -61,7 +61,7 @@ class TransportOperator {
 
 /// When a solve stops.
 struct SolveSettings {
-  float max_albedo = 0.95f;  ///< Bound of the surfels' mean albedos, 0 to 0.99.
+  float max_albedo = 0.98f;  ///< Bound of the surfels' mean albedos, 0 to 0.99.
   float tolerance = 0.002f;  ///< Estimated relative error of the blended light to stop at.
   int max_iterations = 32;   ///< The solve stops after this many iterations in any case.
 };

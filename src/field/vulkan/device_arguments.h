@@ -335,9 +335,11 @@ struct LookupArguments {
 };
 
 /// Arguments of hit_queries, which writes a query for the hit of each ray. Those of rays that were
-/// not traced have a normal of 0, which lookups by rays skip; their answers are not to be read.
+/// not traced, and of hits that reflect nothing, have a normal of 0, which lookups by rays skip;
+/// their answers are not to be read.
 struct HitQueriesArguments {
   LitPointArray hit_points;
+  ShadedHitArray shaded;
   RayArray rays;
   QueryArray queries;
   uint count;

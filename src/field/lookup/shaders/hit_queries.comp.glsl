@@ -15,7 +15,8 @@ void main() {
   LitPointRecord point = args.hit_points.at[i];
   RayRecord ray = args.rays.at[i];
   // Lookups by rays skip a query with a normal of 0
-  vec3 normal_ws = ray.mask != 0u ? point.normal_ws : vec3(0.0);
+  bool asks = ray.mask != 0u && reads_field(args.shaded.at[i]);
+  vec3 normal_ws = asks ? point.normal_ws : vec3(0.0);
   args.queries.at[i] =
       QueryRecord(point.position_ws, normal_ws, point.to_viewer_ws, point.viewer_distance);
 }
