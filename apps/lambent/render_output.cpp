@@ -151,7 +151,7 @@ Expected<void> PictureFile::show(const Image& rows) {
 }
 
 Expected<void> PictureFile::finish() {
-  // Frames of a sequence may well be
+  // A frame of a sequence may be black on purpose
   if (black_ && options_.frames == 0) {
     warn("the picture is black: no light reaches what the camera sees");
   }

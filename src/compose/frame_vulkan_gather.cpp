@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Indirect light of a frame on a device that rays gather; see gather/gather.cpp.
 #include <algorithm>
-#include <cmath>
 
 #include "compose/frame_vulkan.h"
 #include "field/probes/volumes.h"
+#include "field/secondary/gathering_rays.h"
 #include "field/vulkan/device_arguments.h"
 #include "lambent/field.h"
-#include "raytracing/emitter_sampling.h"
 
 namespace lambent {
 namespace {
@@ -153,18 +152,15 @@ void FramePassesVulkan::gather() {
   const std::vector<ProbeGrid> grids = still_grids(field.grids());
   reserve<ProbeGrid>(grids.size(), "grids", m.field_grids);
   vulkan::write<ProbeGrid>(device_, grids, m.field_grids);
-  ShadeHitsSettings shading;
-  shading.cone_width = kHemisphereConeWidth / std::sqrt(static_cast<float>(rays_per_pixel));
-  shading.max_albedo = field.settings().max_albedo;
-  shading.seed = request_->settings.seed;
-  shading.candidates = kSecondaryCandidates;
-  shading.follow_mirrors = true;
+  ShadeHitsSettings shading =
+      gathering_shading(request_->settings.gather_rays, field.settings().max_albedo, sample_,
+                        request_->settings.seed);
 
   for (std::uint32_t first = 0; first < pixels_; first += most) {
     const GatheredPixels pixels{first, std::min(most, pixels_ - first), rays_per_pixel};
     frame_->rays += sampled_pixels(first_pixel_ + first, pixels.count) * rays_per_pixel;
     draw_gathers(pixels);
-    shading.salt = gather_salt(sample_, 0);
+    shading.salt = sample_;
     light_gathers(m.gathers[0], pixels.rays(), m.gathering_indices, rays_per_pixel, shading);
     for (int depth = 1; depth <= kMaxSecondaryRays; ++depth) {
       draw_secondary_gathers(pixels, static_cast<int>(grids.size()), depth);

@@ -98,13 +98,12 @@ std::uint64_t gather_irradiance(const World& world, const IrradianceField& field
   light.excess.assign(request.known.empty() ? 0 : request.seen.size(), vec3(0.0f));
   light.variance.assign(request.rays_per_pixel > 1 ? request.seen.size() : 0, 0.0f);
   const std::vector<ProbeGrid> grids = still_grids(field.grids());
-  HitLighting by{world, grids, {}, kMaxSecondaryRays, {}};
-  by.shading.cone_width = kHemisphereConeWidth / sqrt(static_cast<float>(request.rays_per_pixel));
-  by.shading.max_albedo = field.settings().max_albedo;
-  by.shading.salt = request.sample;
-  by.shading.seed = request.seed;
-  by.shading.candidates = kSecondaryCandidates;
-  by.shading.follow_mirrors = true;
+  HitLighting by{world,
+                 grids,
+                 gathering_shading(request.rays_per_pixel, field.settings().max_albedo,
+                                   request.sample, request.seed),
+                 kMaxSecondaryRays,
+                 {}};
   by.look_up = [&](std::span<const FieldQuery> queries, std::span<vec3> irradiance) {
     look_up_irradiance(field, queries, CorrectionUse::picked, irradiance, world);
     return std::uint64_t{0};

@@ -202,14 +202,7 @@ std::vector<TrainingSurfel> training_surfels(const ProbeData& data, std::span<co
 }
 
 ShadeHitsSettings training_shading(const FieldSettings& settings, uint number) {
-  ShadeHitsSettings shading;
-  shading.cone_width = kHemisphereConeWidth / sqrt(static_cast<float>(kTrainingRays));
-  shading.max_albedo = settings.max_albedo;
-  shading.candidates = kSecondaryCandidates;
-  shading.follow_mirrors = true;
-  shading.salt = number;
-  shading.seed = ~settings.seed;
-  return shading;
+  return gathering_shading(kTrainingRays, settings.max_albedo, number, ~settings.seed);
 }
 
 std::uint64_t train_corrections(const World& world, std::span<const int> probes,

@@ -3,6 +3,7 @@
 
 #include "field/lookup/query_at.h"
 #include "field/secondary/secondary_math.h"
+#include "raytracing/emitter_sampling.h"
 #include "raytracing/world_access.h"
 
 namespace lambent {
@@ -88,6 +89,18 @@ std::uint64_t light_depth(const HitLighting& by, int depth, ShadeHitsScratch& sc
 }
 
 }  // namespace
+
+ShadeHitsSettings gathering_shading(int rays, float max_albedo, std::uint32_t salt,
+                                    std::uint32_t seed) {
+  ShadeHitsSettings shading;
+  shading.cone_width = kHemisphereConeWidth / sqrt(static_cast<float>(rays));
+  shading.max_albedo = max_albedo;
+  shading.candidates = kSecondaryCandidates;
+  shading.follow_mirrors = true;
+  shading.salt = salt;
+  shading.seed = seed;
+  return shading;
+}
 
 std::uint64_t GatheringRays::light(const HitLighting& by, ShadeHitsScratch& scratch) {
   return light_depth(by, 0, scratch, *this);

@@ -28,6 +28,11 @@ struct HitLighting {
   std::function<std::uint64_t(std::span<const FieldQuery>, std::span<glm::vec3>)> look_up;
 };
 
+/// How the hits of rays are shaded that gather a hemisphere's light, so many from each point.
+/// `max_albedo`: see FieldSettings.
+ShadeHitsSettings gathering_shading(int rays, float max_albedo, std::uint32_t salt,
+                                    std::uint32_t seed);
+
 /// Rays, and what they found. After light(), all have the same length.
 struct GatheringRays {
   std::vector<Ray> rays;

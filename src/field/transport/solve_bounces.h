@@ -59,11 +59,11 @@ class TransportOperator {
       taps_;  // the four interior texels of each possible fetch
 };
 
-/// When a solve stops.
+/// When a solve stops; see solve_settings().
 struct SolveSettings {
-  float max_albedo = 0.98f;  ///< Bound of the surfels' mean albedos, 0 to 0.99.
-  float tolerance = 0.002f;  ///< Estimated relative error of the blended light to stop at.
-  int max_iterations = 32;   ///< The solve stops after this many iterations in any case.
+  float max_albedo = 0.0f;  ///< Bound of the surfels' mean albedos, 0 to 0.99.
+  float tolerance = 0.0f;   ///< Estimated relative error of the blended light to stop at.
+  int max_iterations = 0;   ///< The solve stops after this many iterations in any case.
 };
 
 /// When a solve of a field with these settings stops.
