@@ -46,9 +46,9 @@ void add_quality_options(CLI::App& command, RenderOptions& o) {
       ->type_name("Q");
   command
       .add_option("--without", o.without,
-                  "Passes to leave out: gather, glossy, fog, denoise; of sequences taa")
+                  "Passes to leave out: gather, guide, glossy, fog, denoise; of sequences taa")
       ->delimiter(',')
-      ->check(one_of({"gather", "glossy", "fog", "denoise", "taa"}))
+      ->check(one_of({"gather", "guide", "glossy", "fog", "denoise", "taa"}))
       ->type_name("PASS,...");
   command
       .add_option("--froxel", o.froxel_pixels,
@@ -87,6 +87,7 @@ FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& siz
   if (leaves_out(options, "gather")) frame.gather_rays = 0;
   if (options.glossy_rows >= 0) frame.glossy_rows = options.glossy_rows;
   if (options.coat_rays > 0) frame.coat_rays = options.coat_rays;
+  frame.guides_gathers = !leaves_out(options, "guide");
   if (leaves_out(options, "glossy")) frame.glossy_rows = 0;
   if (options.froxel_pixels > 0) frame.fog.froxel_pixels = options.froxel_pixels;
   if (leaves_out(options, "denoise")) frame.denoise = false;

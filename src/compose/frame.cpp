@@ -67,10 +67,12 @@ ProgressFn progress_of_sample(const FrameSettings& settings, int sample,
   };
 }
 
-void run_passes(const FrameRequest& request, bool makes_maps, const ProgressFn& progress,
+/// `continues`: the frame is a part of the same picture as the previous one.
+void run_passes(const FrameRequest& request, bool continues, const ProgressFn& progress,
                 FramePasses& passes) {
   const FrameSettings& settings = request.settings;
-  if (makes_maps) passes.rsm();
+  if (request.sources.rsm && !continues) passes.rsm();
+  if (guides_gathers(request) && !continues) passes.guide();
   if (has_fog(request)) passes.light_fog();
   FurtherSamples further(request, passes);
   const auto run = [&](const FrameRequest& round, int first) {
@@ -189,7 +191,7 @@ Expected<void> Renderer::render(const Camera& camera, const FrameSettings& setti
   if (s.passes == nullptr) s.passes = make_frame_passes(s.world);
   try {
     s.passes->begin(request, frame);
-    run_passes(request, s.sources.rsm && !continues, progress, *s.passes);
+    run_passes(request, continues, progress, *s.passes);
   } catch (...) {
     s.passes.reset();  // the next frame cannot start from an unfinished one
     s.last = {};

@@ -8,6 +8,7 @@
 #include "compose/fog/fog_frame.h"
 #include "compose/frame_passes.h"
 #include "compose/frame_tasks.h"
+#include "compose/gather/guide_frame.h"
 #include "compose/glossy/glossy_frame.h"
 #include "compose/history/light_history.h"
 #include "compose/layers.h"
@@ -45,18 +46,6 @@ void look_up(const World& world, const IrradianceField& field, CorrectionUse use
   });
   irradiance.resize(gbuffer.size());
   look_up_irradiance(field, queries, use, irradiance, world);
-}
-
-/// Subtracts another method's share of light from the field's, and adds that method's own result.
-void replace_light(const std::vector<vec3>& subtracted_field, const std::vector<vec3>& added,
-                   std::vector<vec3>& irradiance) {
-  irradiance.resize(added.size(), vec3(0.0f));
-  parallel_chunks(irradiance.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      irradiance[i] = replaced_light(irradiance[i], added[i],
-                                     subtracted_field.empty() ? vec3(0.0f) : subtracted_field[i]);
-    }
-  });
 }
 
 /// The light of one sample of a band.
@@ -216,6 +205,11 @@ class FramePassesCpu final : public FramePasses {
     finish_pass("indirect");
   }
 
+  void guide() override {
+    now_->frame.rays += guide_frame(request(), guide_);
+    finish_pass("guide");
+  }
+
   void gather() override {
     const FrameSettings& settings = request().settings;
     const GatherRequest asked{
@@ -226,7 +220,9 @@ class FramePassesCpu final : public FramePasses {
         settings.gather_rays,
         static_cast<std::uint32_t>(drawn_sample()),
         settings.seed,
-        settings.denoise ? std::span<const vec3>(light_.irradiance) : std::span<const vec3>()};
+        settings.denoise ? std::span<const vec3>(light_.irradiance) : std::span<const vec3>(),
+        settings.height,
+        guides_gathers(request()) ? &guide_ : nullptr};
     now_->frame.rays +=
         gather_irradiance(request().world, *request().sources.field, asked, gathered_);
     if (!settings.denoise) light_.irradiance.swap(gathered_.irradiance);
@@ -380,6 +376,7 @@ class FramePassesCpu final : public FramePasses {
   std::vector<PixelMotion> band_motion_, motion_;
   TemporalAntialiasing antialiasing_;
   BandLight light_;
+  GatherGuide guide_;
   GatheredLight gathered_;
   FilteredPixels to_filter_;
   LightHistory history_, next_history_;  // of the previous frame, and of this one

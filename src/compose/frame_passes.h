@@ -53,6 +53,11 @@ inline bool gathers(const FrameRequest& request) {
   return request.sources.field != nullptr && request.settings.gather_rays > 0;
 }
 
+/// Whether a pilot guides these rays.
+inline bool guides_gathers(const FrameRequest& request) {
+  return gathers(request) && request.settings.guides_gathers && request.settings.gather_rays > 1;
+}
+
 /// Whether the field is looked up at pixels: for their indirect light, or for the base that
 /// gathered light is filtered with.
 inline bool looks_up(const FrameRequest& request) {
@@ -105,6 +110,9 @@ class FramePasses {
   /// Before all bands: renders reflective shadow maps and gathers their light. Skipped where the
   /// previous frame's are still valid.
   virtual void rsm() = 0;
+  /// Before all bands: finds where most of the light that pixels gather comes from. See
+  /// guides_gathers(). Skipped where the previous frame's guide is still valid.
+  virtual void guide() = 0;
   /// Before all bands: lights the fog of the whole view. For scenes that have fog.
   virtual void light_fog() = 0;
   /// Traces a band's primary rays, a sample of each pixel that the round does not skip; starts the

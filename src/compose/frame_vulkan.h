@@ -23,6 +23,7 @@
 #include "field/secondary/secondary_records.h"
 #include "fog/fog_records.h"
 #include "gather/gather_records.h"
+#include "gather/guide.h"
 #include "glossy/glossy_records.h"
 #include "raytracing/vulkan/device_world.h"
 #include "raytracing/vulkan/hit_shading.h"
@@ -190,6 +191,7 @@ struct FrameMemory {
   // For the rays that gather the light of some pixels at a time, the secondary gathers at their
   // hits, those at the hits of these, and so on
   std::array<GatherBuffers, 1 + kMaxSecondaryRays> gathers;
+  vulkan::Buffer gathering_weights, guide_points, guide_places;
   vulkan::Buffer gathered_hits, gathering_indices, secondary_indices, field_grids;
   // Positions, normals and depths of a band's pixels, and of the small view of reflective shadow
   // maps
@@ -220,6 +222,7 @@ class FramePassesVulkan final : public FramePasses {
 
   void begin(const FrameRequest& request, RenderedFrame& frame) override;
   void rsm() override;
+  void guide() override;
   void light_fog() override;
   void gbuffer(const Band& band, int sample) override;
   void motion() override;
@@ -343,6 +346,7 @@ class FramePassesVulkan final : public FramePasses {
   vulkan::Timestamps timestamps_;
   Buffer shadow_rays_[2];  // of pixels, and of the hits of gathering rays
   std::vector<PixelLayers> pixel_layers_;
+  GatherGuide guide_;
   RsmViewOnDevice small_;  // the small view of reflective shadow maps
 
   // State of the frame being rendered

@@ -9,10 +9,11 @@
 #include <atomic>
 
 #include "core/parallel.h"
-#include "field/field_access.h"
 #include "field/probes/volumes.h"
 #include "field/secondary/gathering_rays.h"
+#include "gather/field_lighting.h"
 #include "gather/gather_math.h"
+#include "gather/guide.h"
 #include "shared/rays.h"
 #include "shared/variance.h"
 
@@ -21,11 +22,27 @@ namespace {
 
 constexpr std::size_t kPixelsPerTask = 256;
 
+/// The rays of pixels, guided where there is a guide.
+struct GuidedRays {
+  const GatherGuide* guide;  // null: none are guided
+
+  const GuidePoint& fetch_guide_point(int point) const {
+    return guide->points[static_cast<std::size_t>(point)];
+  }
+  const vec3& fetch_bright_place(int place) const {
+    return guide->places[static_cast<std::size_t>(place)];
+  }
+#include "gather/guide.inl.h"
+};
+
 /// A run of pixels. Those that show a surface gather light.
 class GatherChunk {
  public:
   GatherChunk(const GatherRequest& request, std::size_t begin, std::size_t end)
-      : request_(request), rays_per_pixel_(static_cast<std::size_t>(request.rays_per_pixel)) {
+      : request_(request),
+        rays_per_pixel_(static_cast<std::size_t>(request.rays_per_pixel)),
+        size_(request.guide == nullptr ? GuideSize{}
+                                       : request.guide->size(request.width, request.height)) {
     for (std::size_t i = begin; i < end; ++i) {
       if (request.seen[i] != 0) add_rays(i);
     }
@@ -45,9 +62,10 @@ class GatherChunk {
       vec3 sum(0.0f), excess(0.0f);
       float luminances = 0.0f, squares = 0.0f;
       for (std::size_t r = p * rays_per_pixel_; r < (p + 1) * rays_per_pixel_; ++r) {
-        const vec3 brought = gathered_irradiance(
-            above, geometric_normal_ws, rays_.rays[r].direction, rays_.shaded[r].surface,
-            rays_.shaded[r].direct_irradiance, rays_.arrives[r]);
+        const vec3 brought =
+            weights_[r] * gathered_irradiance(above, geometric_normal_ws, rays_.rays[r].direction,
+                                              rays_.shaded[r].surface,
+                                              rays_.shaded[r].direct_irradiance, rays_.arrives[r]);
         const vec3 kept = known.empty() ? brought : kept_of_ray(brought, known[pixels_[p]]);
         const float level = luminance(kept);
         sum += kept;
@@ -71,21 +89,29 @@ class GatherChunk {
     const Frame frame = make_frame(surface.normal_ws);
     const vec3 origin = offset_ray_origin(surface.position_ws, surface.geometric_normal_ws);
     const auto width = static_cast<std::size_t>(request_.width);
-    const auto x = static_cast<uint>(pixel % width);
-    const auto y = static_cast<uint>(pixel / width) + static_cast<uint>(request_.first_row);
-    const std::size_t place = static_cast<std::size_t>(request_.first_row) * width + pixel;
     const auto count = static_cast<uint>(rays_per_pixel_);
+    const GuidedRays::PixelRays rays = {
+        static_cast<uint>(pixel % width),
+        static_cast<uint>(pixel / width) + static_cast<uint>(request_.first_row), count,
+        request_.sample, request_.seed};
+    const std::size_t place = static_cast<std::size_t>(request_.first_row) * width + pixel;
+    GuidedRays drawing{request_.guide};
+    const int point = drawing.guiding_point(size_, rays, surface.normal_ws);
+    const uint guided = point < 0 ? 0u : guided_rays(drawing.fetch_guide_point(point).share, count);
     for (uint ray = 0; ray < count; ++ray) {
-      const vec2 point = pixel_point(x, y, ray, count, request_.sample, request_.seed);
-      rays_.rays.push_back(
-          {origin, 0.0f, gather_direction(frame, point), kInfiniteDistance, kRayGathers});
+      const GuidedRays::GatherRay drawn =
+          drawing.gather_ray(rays, ray, point, guided, surface.position_ws, frame);
+      rays_.rays.push_back({origin, 0.0f, drawn.direction_ws, kInfiniteDistance, kRayGathers});
       rays_.indices.push_back(place * rays_per_pixel_ + ray);
+      weights_.push_back(drawn.weight);
     }
   }
 
   const GatherRequest& request_;
   std::size_t rays_per_pixel_;
+  GuideSize size_;
   std::vector<std::size_t> pixels_;
+  std::vector<float> weights_;  // of the rays' contributions
   GatheringRays rays_;
   ShadeHitsScratch scratch_;
 };
@@ -98,16 +124,11 @@ std::uint64_t gather_irradiance(const World& world, const IrradianceField& field
   light.excess.assign(request.known.empty() ? 0 : request.seen.size(), vec3(0.0f));
   light.variance.assign(request.rays_per_pixel > 1 ? request.seen.size() : 0, 0.0f);
   const std::vector<ProbeGrid> grids = still_grids(field.grids());
-  HitLighting by{world,
-                 grids,
-                 gathering_shading(request.rays_per_pixel, field.settings().max_albedo,
-                                   request.sample, request.seed),
-                 kMaxSecondaryRays,
-                 {}};
-  by.look_up = [&](std::span<const FieldQuery> queries, std::span<vec3> irradiance) {
-    look_up_irradiance(field, queries, CorrectionUse::picked, irradiance, world);
-    return std::uint64_t{0};
-  };
+  const HitLighting by =
+      lit_by_field(world, field, grids,
+                   gathering_shading(request.rays_per_pixel, field.settings().max_albedo,
+                                     request.sample, request.seed),
+                   kMaxSecondaryRays);
   std::atomic<std::uint64_t> traced = 0;
   parallel_chunks(request.seen.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     GatherChunk chunk(request, begin, end);

@@ -13,6 +13,8 @@
 
 namespace lambent {
 
+struct GatherGuide;
+
 /// Pixels of some rows of a picture, and how their light is gathered.
 struct GatherRequest {
   std::span<const Surface> surfaces;   ///< Undefined where `seen` is 0.
@@ -24,6 +26,8 @@ struct GatherRequest {
   std::uint32_t seed = 1;
   /// Irradiance from lookups of the field at each pixel; empty: no excess is split off.
   std::span<const glm::vec3> known = {};
+  int height = 0;                      ///< Of the picture [pixels]; read where there is a guide.
+  const GatherGuide* guide = nullptr;  ///< Null: no rays are guided.
 };
 
 /// The gathered light, one element a pixel.

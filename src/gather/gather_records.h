@@ -4,9 +4,12 @@
 #define LAMBENT_GATHER_GATHER_RECORDS_H
 
 #include "field/vulkan/device_records.h"
+#include "gather/guide_math.h"
 #include "raytracing/vulkan/shading_records.h"
 
 LAMBENT_BEGIN
+
+LAMBENT_DEVICE_ARRAY(GuidePointArray, GuidePoint, 4)
 
 /// Makes the rays that gather the light of pixels, `rays_per_pixel` each, and writes the index of
 /// each pixel's first one.
@@ -15,14 +18,16 @@ struct GatherRaysArguments {
   PixelSurfaceArray surfaces;
   RayArray rays;
   UintArray first_indices;
+  FloatArray weights;     ///< Factors of the rays' contributions.
+  GuidePointArray guide;  ///< The pilot's points; see GatherGuide.
+  Vec3Array places;       ///< And their bright places.
+  GuideSize size;
   uint first;        ///< First of these pixels in the band.
   uint count;        ///< Number of pixels.
   uint first_pixel;  ///< The band's first pixel in the picture.
-  uint width;        ///< Width of the picture [pixels].
   uint rays_per_pixel;
   uint index;  ///< Index of the sample.
   uint seed;
-  uint padding;
 };
 
 /// Computes the irradiance of pixels from what their rays gathered.
@@ -30,6 +35,7 @@ struct GatherSumArguments {
   LitPointArray points;        ///< One for each pixel of the band.
   PixelSurfaceArray surfaces;  ///< One for each pixel of the band.
   RayArray rays;
+  FloatArray weights;  ///< Factors of the rays' contributions.
   ShadedHitArray shaded;
   Vec3Array direct;  ///< Irradiance at the rays' hits from lights.
   Vec3Array field;   ///< Irradiance at the rays' hits from the field.

@@ -33,7 +33,7 @@ class QualityOption : public ::testing::Test {
   std::string passes_of(const std::string& options) const {
     const nlohmann::json stats = stats_of(options);
     std::string passes;
-    for (const std::string pass : {"indirect", "gather", "denoise"}) {
+    for (const std::string pass : {"guide", "indirect", "gather", "denoise"}) {
       if (stats.contains(pass + "_ms")) passes += pass + " ";
     }
     return passes;
@@ -43,18 +43,19 @@ class QualityOption : public ::testing::Test {
 };
 
 TEST_F(QualityOption, ChoosesThePasses) {
-  EXPECT_EQ(passes_of(""), "indirect gather denoise ");
-  EXPECT_EQ(passes_of("--quality high"), "indirect gather denoise ");
+  EXPECT_EQ(passes_of(""), "guide indirect gather denoise ");
+  EXPECT_EQ(passes_of("--quality high"), "guide indirect gather denoise ");
   EXPECT_EQ(passes_of("--quality interactive"), "indirect gather denoise ");
   EXPECT_EQ(passes_of("--quality draft"), "indirect ");
 }
 
 TEST_F(QualityOption, IsOverruledByOptionsOfItsParts) {
   EXPECT_EQ(passes_of("--without gather"), "indirect denoise ");
-  EXPECT_EQ(passes_of("--without denoise"), "gather ");
+  EXPECT_EQ(passes_of("--without guide"), "indirect gather denoise ");
+  EXPECT_EQ(passes_of("--without denoise"), "guide gather ");
   EXPECT_EQ(passes_of("--without gather,denoise"), "indirect ");
   EXPECT_EQ(passes_of("--gather 0"), "indirect denoise ");
-  EXPECT_EQ(passes_of("--quality draft --gather 2"), "gather ");
+  EXPECT_EQ(passes_of("--quality draft --gather 2"), "guide gather ");
   // A gathering ray would be a bounce more than the field's
   EXPECT_EQ(passes_of("--bounces 1"), "indirect denoise ");
   EXPECT_GT(stats_of("--quality interactive --samples 3")["camera_rays"].get<int>(),

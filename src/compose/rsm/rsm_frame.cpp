@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compose/frame_tasks.h"
+#include "compose/pixel_math.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "raytracing/camera_rays.h"
@@ -184,6 +185,17 @@ void look_up_rsm(const RsmFrame& frame, const GBuffer& gbuffer, const Camera& ca
                     irradiance[i] = SmallPicture(frame).upsample_light(
                         size, place, surface.position_ws, surface.normal_ws, tolerance);
                   });
+}
+
+void replace_light(const std::vector<vec3>& subtracted_field, const std::vector<vec3>& added,
+                   std::vector<vec3>& irradiance) {
+  irradiance.resize(added.size(), vec3(0.0f));
+  parallel_chunks(irradiance.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      irradiance[i] = replaced_light(irradiance[i], added[i],
+                                     subtracted_field.empty() ? vec3(0.0f) : subtracted_field[i]);
+    }
+  });
 }
 
 void add_rsm_direct(const RsmFrame& frame, const GBuffer& gbuffer, const Camera& camera, int width,

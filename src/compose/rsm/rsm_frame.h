@@ -45,6 +45,10 @@ std::vector<Layer> rsm_stage_layers(const ReflectiveShadowMap* first_map,
 void look_up_rsm(const RsmFrame& frame, const GBuffer& gbuffer, const Camera& camera, int width,
                  const Band& band, std::vector<glm::vec3>& irradiance);
 
+/// Subtracts another method's share of light from the field's, and adds that method's own result.
+void replace_light(const std::vector<glm::vec3>& subtracted_field,
+                   const std::vector<glm::vec3>& added, std::vector<glm::vec3>& irradiance);
+
 /// Adds the direct light of the view to that of a band's samples; see RsmSettings::direct.
 void add_rsm_direct(const RsmFrame& frame, const GBuffer& gbuffer, const Camera& camera, int width,
                     const Band& band, ReflectedLight& light);

@@ -33,6 +33,7 @@ void main() {
     RayRecord ray = args.rays.at[at];
     if (ray.mask == 0u) continue;
     vec3 brought =
+        args.weights.at[at] *
         gathered_irradiance(above, point.geometric_normal_ws, ray.direction_ws,
                             args.shaded.at[at], args.direct.at[at], args.field.at[at]);
     vec3 kept = args.keeps_excess != 0u ? kept_of_ray(brought, known) : brought;

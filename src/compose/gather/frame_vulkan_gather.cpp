@@ -3,6 +3,9 @@
 #include <algorithm>
 
 #include "compose/frame_vulkan.h"
+#include "compose/gather/guide_frame.h"
+#include "core/pass_times.h"
+#include "core/stopwatch.h"
 #include "field/probes/volumes.h"
 #include "field/secondary/gathering_rays.h"
 #include "field/vulkan/device_arguments.h"
@@ -21,6 +24,7 @@ void FramePassesVulkan::reserve_gather(std::size_t pixels, std::size_t rays) {
   reserve<vec3>(pixels_, "irradiance", m.irradiance);
   reserve<float>(pixels_, "variance", m.gathered_variance);
   reserve<uint>(pixels, "gathering indices", m.gathering_indices);
+  reserve<float>(rays, "gathering weights", m.gathering_weights);
   reserve<uint>(rays, "secondary indices", m.secondary_indices);
   reserve<HitRecord>(rays, "gathered hits", m.gathered_hits);
   reserve<QueryRecord>(rays, "queries", m.queries);
@@ -55,21 +59,25 @@ void FramePassesVulkan::light_gathers(const GatherBuffers& gathers, std::uint32_
 }
 
 void FramePassesVulkan::draw_gathers(const GatheredPixels& pixels) {
-  const auto width = static_cast<uint>(request_->settings.width);
-  const std::uint32_t seed = request_->settings.seed;
+  const FrameSettings& settings = request_->settings;
+  const GuideSize size = guides_gathers(*request_)
+                             ? guide_.size(settings.width, settings.height)
+                             : GuideSize{settings.width, settings.height, 0, 0};
   add("gather", [=, this, &m = memory_](Recorder& to) {
     const GatherRaysArguments drawn = {{m.points.address()},
                                        {m.surfaces.address()},
                                        {m.gathers[0].rays.address()},
                                        {m.gathering_indices.address()},
+                                       {m.gathering_weights.address()},
+                                       {m.guide_points.address()},
+                                       {m.guide_places.address()},
+                                       size,
                                        pixels.first,
                                        pixels.count,
                                        first_pixel_,
-                                       width,
                                        pixels.rays_per_pixel,
                                        sample_,
-                                       seed,
-                                       0u};
+                                       request_->settings.seed};
     to.run(kernels_.gather_rays, drawn, pixels.count);
   });
 }
@@ -127,6 +135,7 @@ void FramePassesVulkan::sum_gathers(const GatheredPixels& pixels) {
     const GatherSumArguments summed = {{m.points.address()},
                                        {m.surfaces.address()},
                                        {m.gathers[0].rays.address()},
+                                       {m.gathering_weights.address()},
                                        {m.gathers[0].shaded.address()},
                                        {m.gathers[0].direct.address()},
                                        {m.gathers[0].field.address()},
@@ -140,6 +149,17 @@ void FramePassesVulkan::sum_gathers(const GatheredPixels& pixels) {
                                        filters ? 1u : 0u};
     to.run(kernels_.gather_sum, summed, pixels.count);
   });
+}
+
+/// The pilot's surfaces and hits are shaded by the host, its rays traced by the device.
+void FramePassesVulkan::guide() {
+  Stopwatch watch;
+  frame_->rays += guide_frame(*request_, guide_);
+  reserve<GuidePoint>(guide_.points.size(), "guide's points", memory_.guide_points);
+  reserve<vec3>(guide_.places.size(), "guide's places", memory_.guide_places);
+  vulkan::write<GuidePoint>(device_, guide_.points, memory_.guide_points);
+  vulkan::write<vec3>(device_, guide_.places, memory_.guide_places);
+  add_pass_time(frame_->passes, "guide", watch.lap());
 }
 
 /// Final gathering, some pixels at a time.

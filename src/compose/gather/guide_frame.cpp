@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compose/gather/guide_frame.h"
+
+#include <algorithm>
+
+#include "compose/gbuffer.h"
+
+namespace lambent {
+namespace {
+
+// Pixels of the picture along the side of one of the pilot's, in large pictures.
+constexpr int kPilotStep = 8;
+// Bounds of the pilot's longer side [pixels], which is never longer than the picture's.
+constexpr int kLeastPilotSide = 64, kMaxPilotSide = 256;
+
+/// Settings of the pilot's picture, one sample of each pixel.
+FrameSettings pilot_settings(const FrameSettings& picture) {
+  const int side = std::max(picture.width, picture.height);
+  const int pilot_side =
+      std::min(side, std::clamp(side / kPilotStep, kLeastPilotSide, kMaxPilotSide));
+  FrameSettings pilot;
+  pilot.width = std::max(1, picture.width * pilot_side / side);
+  pilot.height = std::max(1, picture.height * pilot_side / side);
+  pilot.seed = picture.seed;
+  return pilot;
+}
+
+}  // namespace
+
+std::uint64_t guide_frame(const FrameRequest& request, GatherGuide& guide) {
+  const FrameSettings pilot = pilot_settings(request.settings);
+  GBuffer gbuffer;
+  const std::uint64_t seen =
+      trace_gbuffer(request.world, request.camera, pilot, {0, pilot.height}, 0, gbuffer);
+  const PilotView view{pilot.width, pilot.height, gbuffer.surfaces, gbuffer.hit};
+  return seen + make_guide(request.world, *request.sources.field, view, pilot.seed, guide);
+}
+
+}  // namespace lambent
