@@ -89,10 +89,10 @@ LAMBENT_REAL_FN PixelLobe lobe_at(int x, int y) {
 }
 
 /// The variance that the difference of two pixels' luminance is compared with. The variance of the
-/// difference is the sum. Where both were measured, twice their harmonic mean is used: it is less
-/// where one pixel's light is known better, and keeps noisy light out of pixels known to be dark.
+/// difference is the sum. Twice the harmonic mean is less where one pixel's light is known better,
+/// and keeps noisy light out of pixels known to be dark.
 LAMBENT_REAL_FN Real variance_between(AtrousPass by, Real a, Real b) {
-  if (by.measured == 0u) return a + b;
+  if (by.harmonic == 0u) return a + b;
   return 4.0f * a * b / (a + b + kLeastContrast);
 }
 
@@ -109,7 +109,7 @@ LAMBENT_REAL_FN AtrousLight divided_sums(AtrousPass by, AtrousLight own, AtrousL
   if (by.has_base != 0u) sum.base = sum.base * scale;
   sum.spread = sum.spread * scale;
   sum.share = sum.share * (scale * scale);
-  if (by.ends_geometric != 0u && by.measured == 0u) {
+  if (by.ends_estimate != 0u) {
     // Compute the unbiased estimate of a variance from several pixels
     Real level = filtered_luminance(by, sum);
     Real square = level * level;

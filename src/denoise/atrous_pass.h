@@ -77,8 +77,8 @@ struct AtrousPass {
   float contrast_scale;    ///< 1 / DenoiseSettings::noise_tolerance^2.
   float lobe_scale;        ///< 1 / DenoiseSettings::lobe_share^2.
   uint geometric;          ///< 1: the light of pixels is not compared.
-  uint ends_geometric;     ///< 1: the last geometric pass, after which the variance is known.
-  uint measured;           ///< 1: variances were measured per pixel; 0: estimated from neighbours.
+  uint ends_estimate;      ///< 1: after this pass, the variance is known from neighbours.
+  uint harmonic;           ///< How variances of two pixels are joined; see variance_between().
   uint only_spread;        ///< 1: averages variances alone, and leaves light as it is.
   uint has_base;           ///< 1: there is a base.
   uint has_levels;         ///< 1: light is divided by a level.
