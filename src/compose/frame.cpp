@@ -96,6 +96,7 @@ struct PictureView {
   std::shared_ptr<const ScenePose> pose;  // null: there was no picture
   bool antialiased = false;               // temporally
   std::vector<FogVolume> fog;
+  std::optional<std::uint32_t> guide_seed;  // empty: no guide was made
 };
 
 bool is_same(const Camera& a, const Camera& b) {
@@ -105,7 +106,7 @@ bool is_same(const Camera& a, const Camera& b) {
 
 bool is_same(const PictureView& a, const PictureView& b) {
   return is_same(a.camera, b.camera) && a.width == b.width && a.height == b.height &&
-         a.world_revision == b.world_revision;
+         a.world_revision == b.world_revision && a.guide_seed == b.guide_seed;
 }
 
 /// The previous frame as these settings need it; none where its size differed.
@@ -166,14 +167,16 @@ Expected<void> Renderer::render(const Camera& camera, const FrameSettings& setti
   FrameRequest request{s.world, s.sources, camera, settings};
   if (const Expected<void> fine = check(request); !fine) return fine;
 
-  // Rows below the first continue the previous picture, whose maps are still valid
-  const PictureView view{camera,
-                         settings.width,
-                         settings.height,
-                         s.world.revision(),
-                         pose_of(s.world),
-                         settings.temporal_antialiasing,
-                         s.world.scene().fog};
+  // Rows below the first continue the previous picture, whose maps and guide are still valid
+  PictureView view{camera,
+                   settings.width,
+                   settings.height,
+                   s.world.revision(),
+                   pose_of(s.world),
+                   settings.temporal_antialiasing,
+                   s.world.scene().fog,
+                   std::nullopt};
+  if (guides_gathers(request)) view.guide_seed = settings.seed;
   const bool continues = settings.first_row > 0 && s.passes != nullptr && is_same(view, s.last);
   if (!continues) s.before_last = s.last;
   const std::optional<FrameBefore> before = frame_before(s.before_last, s.world, settings);

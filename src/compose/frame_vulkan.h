@@ -191,7 +191,7 @@ struct FrameMemory {
   // For the rays that gather the light of some pixels at a time, the secondary gathers at their
   // hits, those at the hits of these, and so on
   std::array<GatherBuffers, 1 + kMaxSecondaryRays> gathers;
-  vulkan::Buffer gathering_weights, guide_points, guide_places;
+  vulkan::Buffer gathering_weights, guided_rays, guide_points, guide_places;
   vulkan::Buffer gathered_hits, gathering_indices, secondary_indices, field_grids;
   // Positions, normals and depths of a band's pixels, and of the small view of reflective shadow
   // maps

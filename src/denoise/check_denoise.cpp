@@ -82,8 +82,9 @@ std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has
   // al. 2017, sec. 4.4: variances are filtered before they are used)
   const bool knows_noise = has_levels && measured;
   // Rays of a pixel measure the variance of gathered light, too, but a few are far brighter than
-  // the others. The first passes spread these over neighbours, which the sum of both variances
-  // allows, as that of the bright pixel is large; they leave edges of light that exceed its noise
+  // the others. Once the first pass has averaged variances, the next ones spread such light over
+  // neighbours, which the sum of both variances allows, as that of the bright pixel is large; they
+  // leave edges of light that exceed its noise
   const bool tells_edges = has_base && measured && settings.geometric_passes < settings.passes;
   const float inverse_share = 1.0f / settings.lobe_share;
   std::vector<AtrousPass> passes;
@@ -95,7 +96,7 @@ std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has
     pass.contrast_scale = 1.0f / (settings.noise_tolerance * settings.noise_tolerance);
     pass.lobe_scale = inverse_share * inverse_share;
     const bool first = i < settings.geometric_passes;
-    pass.geometric = first && !tells_edges ? 1 : 0;
+    pass.geometric = first && !(tells_edges && i > 0) ? 1 : 0;
     pass.ends_estimate = !measured && i == settings.geometric_passes - 1 ? 1 : 0;
     pass.only_spread = knows_noise && i == 0 ? 1 : 0;
     pass.harmonic = measured && !(first && tells_edges) ? 1 : 0;

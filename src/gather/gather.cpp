@@ -15,7 +15,6 @@
 #include "gather/gather_math.h"
 #include "gather/guide.h"
 #include "shared/rays.h"
-#include "shared/variance.h"
 
 namespace lambent {
 namespace {
@@ -41,8 +40,7 @@ class GatherChunk {
   GatherChunk(const GatherRequest& request, std::size_t begin, std::size_t end)
       : request_(request),
         rays_per_pixel_(static_cast<std::size_t>(request.rays_per_pixel)),
-        size_(request.guide == nullptr ? GuideSize{}
-                                       : request.guide->size(request.width, request.height)) {
+        size_(request.guide_size) {
     for (std::size_t i = begin; i < end; ++i) {
       if (request.seen[i] != 0) add_rays(i);
     }
@@ -60,7 +58,7 @@ class GatherChunk {
       const float above =
           above_horizon(surface.gi_share, dot(surface.normal_ws, geometric_normal_ws));
       vec3 sum(0.0f), excess(0.0f);
-      float luminances = 0.0f, squares = 0.0f;
+      RaySums guided = {0u, 0.0f, 0.0f}, others = {0u, 0.0f, 0.0f};
       for (std::size_t r = p * rays_per_pixel_; r < (p + 1) * rays_per_pixel_; ++r) {
         const vec3 brought =
             weights_[r] * gathered_irradiance(above, geometric_normal_ws, rays_.rays[r].direction,
@@ -70,15 +68,13 @@ class GatherChunk {
         const float level = luminance(kept);
         sum += kept;
         excess += brought - kept;
-        luminances += level;
-        squares += level * level;
+        add_ray(r - p * rays_per_pixel_ < guided_[p] ? guided : others, level);
       }
       const float share = 1.0f / static_cast<float>(rays_per_pixel_);
       light.irradiance[pixels_[p]] = share * sum;
       if (!known.empty()) light.excess[pixels_[p]] = share * excess;
       if (light.variance.empty()) continue;
-      light.variance[pixels_[p]] =
-          share * share * variance_of_sum(luminances, squares, static_cast<uint>(rays_per_pixel_));
+      light.variance[pixels_[p]] = share * share * variance_of_rays(guided, others);
     }
   }
 
@@ -98,6 +94,7 @@ class GatherChunk {
     GuidedRays drawing{request_.guide};
     const int point = drawing.guiding_point(size_, rays, surface.normal_ws);
     const uint guided = point < 0 ? 0u : guided_rays(drawing.fetch_guide_point(point).share, count);
+    guided_.push_back(guided);
     for (uint ray = 0; ray < count; ++ray) {
       const GuidedRays::GatherRay drawn =
           drawing.gather_ray(rays, ray, point, guided, surface.position_ws, frame);
@@ -111,6 +108,7 @@ class GatherChunk {
   std::size_t rays_per_pixel_;
   GuideSize size_;
   std::vector<std::size_t> pixels_;
+  std::vector<uint> guided_;    // number of each pixel's guided rays, which are its first
   std::vector<float> weights_;  // of the rays' contributions
   GatheringRays rays_;
   ShadeHitsScratch scratch_;

@@ -18,6 +18,7 @@ struct GatherRaysArguments {
   PixelSurfaceArray surfaces;
   RayArray rays;
   UintArray first_indices;
+  UintArray guided;       ///< Number of each pixel's guided rays, which are its first.
   FloatArray weights;     ///< Factors of the rays' contributions.
   GuidePointArray guide;  ///< The pilot's points; see GatherGuide.
   Vec3Array places;       ///< And their bright places.
@@ -35,6 +36,7 @@ struct GatherSumArguments {
   LitPointArray points;        ///< One for each pixel of the band.
   PixelSurfaceArray surfaces;  ///< One for each pixel of the band.
   RayArray rays;
+  UintArray guided;    ///< See GatherRaysArguments.
   FloatArray weights;  ///< Factors of the rays' contributions.
   ShadedHitArray shaded;
   Vec3Array direct;  ///< Irradiance at the rays' hits from lights.

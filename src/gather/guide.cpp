@@ -10,21 +10,26 @@
 #include "field/secondary/gathering_rays.h"
 #include "gather/field_lighting.h"
 #include "gather/gather_math.h"
+#include "raytracing/world_access.h"
 #include "shared/rays.h"
 
 namespace lambent {
 namespace {
 
-constexpr uint kPilotRays = 16;  // of a point
+// Rays of a point. Pools of 25 points have 400 of them, which find what is a hundredth of the
+// hemisphere.
+constexpr uint kPilotRays = 16;
+// Points of a task on the processor. A device is asked for all at once.
 constexpr std::size_t kPointsPerTask = 128;
 
-// The pilot's rays and what they meet have random numbers of their own by this salt.
+// The pilot's rays with what they meet, and the places drawn from that, have random numbers of
+// their own by these salts.
 constexpr uint kPilotSalt = 0xC2B2AE35u;
+constexpr uint kPlacesSalt = 0x9E3779B1u;
 
-// Points pool the rays of those up to this far away: 25 points at most have 400 rays, which find
-// patches of a hundredth of the hemisphere.
+// Points pool the rays of those up to this far away in the pilot's picture.
 constexpr int kPoolReach = 2;
-// Pooled points face about the same way: within 26 degrees.
+// Pooled points face about the same way, within 26 degrees: a pool stands for one hemisphere.
 constexpr float kPoolCosine = 0.9f;
 // Rays this many times as bright as the mean of the pool are bright. 1.5 leaves a little more
 // noise, 4 as little.
@@ -34,6 +39,7 @@ constexpr int kShareSteps = 8;
 // Cones have the solid angle of so many hemispheres, parted among the pool's rays: neighbouring
 // rays' cones overlap, and leave no gaps within what is bright. With 4 or 12 there is more noise.
 constexpr float kConeOverRay = 6.0f;
+// Of small pools, so that cones stay cones.
 constexpr float kMaxConeAngle = 1.0f;  // [sr]
 
 /// A ray that left the scene ends this far away [m], far beyond any picture's parallax.
@@ -107,9 +113,10 @@ void draw_places(const Pool& pool, float drawn, std::span<vec3> places) {
             pool.hits[pool.bright.back()].position_ws);
 }
 
-/// The cones that a hit is in, without those around places that are the hit itself, which say
-/// nothing of what other rays would meet there. Where few hits are bright, such cones count by the
-/// share of all that they are: a single bright hit may well be a small patch of sun.
+/// The number of cones that a hit is in. Cones around places that are the hit itself say nothing of
+/// what another ray would meet there, and count as a part of one each: the share of all places that
+/// are this hit. One of many bright hits then counts by its neighbours, and the only bright one,
+/// which may well be a small patch of sun, in full. Without these cones noise is larger.
 float cones_around(const PilotHit& hit, vec3 position_ws, vec3 direction_ws,
                    std::span<const vec3> places, float least_cosine) {
   int own = 0, others = 0;
@@ -159,7 +166,7 @@ void place_point(std::span<const PilotHit> hits, vec3 position_ws, std::uint32_t
   const float solid_angle =
       min(kConeOverRay * kTwoPi / static_cast<float>(pool.hits.size()), kMaxConeAngle);
   point.least_cosine = 1.0f - solid_angle / kTwoPi;
-  RandomStream random = make_random_stream(static_cast<uint>(index), kPilotSalt, seed);
+  RandomStream random = make_random_stream(static_cast<uint>(index), kPlacesSalt, seed);
   const auto places = std::span(guide.places).subspan(index * kBrightPlaces, kBrightPlaces);
   draw_places(pool, next_uniform(random), places);
   point.share = best_share(pool, position_ws, point, places);
@@ -182,7 +189,9 @@ std::uint64_t make_guide(const World& world, const IrradianceField& field, const
                                      kPilotSalt, seed),
                    0);
   std::atomic<std::uint64_t> traced = 0;
-  parallel_chunks(view.seen.size(), kPointsPerTask, [&](std::size_t begin, std::size_t end) {
+  const std::size_t at_a_time =
+      device_world_of(world) != nullptr ? view.seen.size() : kPointsPerTask;
+  parallel_chunks(view.seen.size(), at_a_time, [&](std::size_t begin, std::size_t end) {
     GatheringRays rays;
     ShadeHitsScratch scratch;
     for (std::size_t i = begin; i < end; ++i) {

@@ -13,11 +13,12 @@
 
 namespace lambent {
 
+/// Where the rays of a picture's pixels should go.
 struct GatherGuide {
   int width = 0, height = 0;  ///< Of the pilot's picture [pixels]; 0: there is no pilot.
   std::vector<GuidePoint> points;
-  std::vector<glm::vec3>
-      places;  ///< kBrightPlaces for each point [m]; undefined where it has none.
+  /// kBrightPlaces for each point [m]; undefined where its share is 0.
+  std::vector<glm::vec3> places;
 
   /// For the rays of a picture of this size [pixels].
   GuideSize size(int picture_width, int picture_height) const {
@@ -42,8 +43,8 @@ struct PilotHit {
 std::uint64_t make_guide(const World& world, const IrradianceField& field, const PilotView& view,
                          std::uint32_t seed, GatherGuide& guide);
 
-/// Chooses bright places for the guide's points, whose normals are given, as are their positions,
-/// among the hits of the pilot's rays, the same number for each point.
+/// Chooses bright places for the guide's points among the hits of the pilot's rays, the same number
+/// for each point. The guide's sizes and the points' normals and positions are given.
 void place_guide(std::span<const PilotHit> hits, std::span<const glm::vec3> positions_ws,
                  std::uint32_t seed, GatherGuide& guide);
 

@@ -19,12 +19,12 @@ struct GatherRay {
 };
 
 /// The point of the pilot that guides a pixel's rays in a sample; -1: none. Of those around the
-/// pixel, points are drawn with the weights of bilinear interpolation, so that there is no seam;
-/// where the point drawn faces elsewhere, one beside it guides.
+/// pixel, points are drawn with the weights of bilinear interpolation, so that noise has no steps
+/// on plain surfaces. Where the point drawn faces elsewhere, one beside it guides.
 LAMBENT_FN int guiding_point(GuideSize size, PixelRays rays, vec3 normal_ws) {
   if (size.width == 0) return -1;
-  RandomStream random =
-      make_random_stream(hilbert_index(rays.x, rays.y), rays.sample_index, rays.seed);
+  RandomStream random = make_random_stream(hilbert_index(rays.x, rays.y), rays.sample_index,
+                                           rays.seed ^ kGuidingSalt);
   vec2 drawn = next_uniform2(random);
   float scale_x = float(size.width) / float(size.picture_width);
   float scale_y = float(size.height) / float(size.picture_height);
@@ -44,34 +44,36 @@ LAMBENT_FN int guiding_point(GuideSize size, PixelRays rays, vec3 normal_ws) {
   return -1;
 }
 
-/// One of a pixel's rays, of which `guided` are guided by a point of the pilot. The frame's normal
-/// is that of the pixel's surface.
+/// Direction of a ray that a point of the pilot guides.
+LAMBENT_FN vec3 guided_direction(PixelRays rays, uint ray, int point, vec3 position_ws,
+                                 Frame frame) {
+  vec2 u = pixel_point(rays.x, rays.y, ray, rays.count, rays.sample_index,
+                       rays.seed ^ kGuidedSalt);
+  int place = min(int(u.x * float(kBrightPlaces)), kBrightPlaces - 1);
+  vec3 to_place = fetch_bright_place(point * kBrightPlaces + place) - position_ws;
+  // A place at the pixel itself is in no direction: such a ray brings nothing
+  vec3 axis_ws = to_place == vec3(0.0f) ? -frame.normal : normalize(to_place);
+  vec2 in_cone = vec2(u.x * float(kBrightPlaces) - float(place), u.y);
+  return direction_in_cone(axis_ws, fetch_guide_point(point).least_cosine, in_cone);
+}
+
+/// One of a pixel's rays, of which the first `guided` are guided by a point of the pilot. The
+/// frame's normal is that of the pixel's surface.
 LAMBENT_FN GatherRay gather_ray(PixelRays rays, uint ray, int point, uint guided, vec3 position_ws,
                                 Frame frame) {
   GatherRay drawn;
   drawn.weight = 1.0f;
-  if (guided == 0u) {
+  if (ray < guided) {
+    drawn.direction_ws = guided_direction(rays, ray, point, position_ws, frame);
+  } else {
     drawn.direction_ws = gather_direction(
         frame, pixel_point(rays.x, rays.y, ray, rays.count, rays.sample_index, rays.seed));
-    return drawn;
   }
+  if (guided == 0u) return drawn;
   float least_cosine = fetch_guide_point(point).least_cosine;
-  int first = point * kBrightPlaces;
-  if (ray < guided) {
-    vec2 u = pixel_point(rays.x, rays.y, ray, rays.count, rays.sample_index, ~rays.seed);
-    int place = min(int(u.x * float(kBrightPlaces)), kBrightPlaces - 1);
-    vec3 to_place = fetch_bright_place(first + place) - position_ws;
-    vec3 axis_ws = to_place == vec3(0.0f) ? frame.normal : normalize(to_place);
-    vec2 in_cone = vec2(u.x * float(kBrightPlaces) - float(place), u.y);
-    drawn.direction_ws = direction_in_cone(axis_ws, least_cosine, in_cone);
-  } else {
-    drawn.direction_ws =
-        gather_direction(frame, pixel_point(rays.x, rays.y, ray, rays.count,
-                                            rays.sample_index, rays.seed));
-  }
   int cones = 0;
   for (int k = 0; k < kBrightPlaces; ++k) {
-    vec3 to_place = fetch_bright_place(first + k) - position_ws;
+    vec3 to_place = fetch_bright_place(point * kBrightPlaces + k) - position_ws;
     if (is_in_cone(drawn.direction_ws, to_place, least_cosine)) ++cones;
   }
   drawn.weight = guided_weight(dot(drawn.direction_ws, frame.normal),

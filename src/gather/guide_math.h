@@ -15,15 +15,22 @@
 
 LAMBENT_BEGIN
 
-// Bright places of a point of the pilot. Each stands for the same share of the bright light.
+// Bright places of a point of the pilot. Each stands for the same share of the bright light: more
+// of them tell more small lamps apart, and every ray is compared with all.
 const int kBrightPlaces = 32;
 
 // The largest share of rays that are guided. The others, at least half, find what the pilot missed:
 // a ray counts at most twice as much as without guiding.
 const float kMaxGuidedShare = 0.5f;
 
-// Points of the pilot whose normals have a smaller cosine to a pixel's do not guide it.
+// Points of the pilot whose normals have a smaller cosine to a pixel's do not guide it: half of
+// what they see would be below its horizon.
 const float kGuidingCosine = 0.7f;
+
+// Salts by which the choice of a guiding point and the directions of guided rays have random
+// numbers of their own.
+const uint kGuidingSalt = 0x27D4EB2Fu;
+const uint kGuidedSalt = 0x165667B1u;
 
 /// A point of the pilot.
 struct GuidePoint {

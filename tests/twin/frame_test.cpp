@@ -264,11 +264,13 @@ TEST_F(Frame, SeenByRaysIsTheSame) {
 
 TEST_F(Frame, WithGatheredLightIsTheSame) {
   Job job = small("cornell");
-  job.frame.width = 24;
-  job.frame.height = 16;
-  job.frame.gather_rays = 4;
-  job.frame.samples = 2;
-  expect_alike(render_both(job));
+  job.frame.width = 24, job.frame.height = 16;
+  job.frame.gather_rays = 4, job.frame.samples = 2;
+  const Frames guided = render_both(job);
+  expect_alike(guided);
+  job.frame.guides_gathers = false;  // which the device's rays were, too
+  EXPECT_NE(guided.device.find("indirect")->pixels,
+            render_both(job).device.find("indirect")->pixels);
 }
 
 TEST_F(Frame, WithFilteredLightIsTheSame) {
@@ -381,8 +383,7 @@ TEST_F(Frame, WithDirectLightInSubImagesIsTheSame) {
 TEST_F(Frame, WithDirectLightOfManyLightsIsTheSame) {
   Job job = small("cornell-spot");
   job.lights = 300;
-  job.frame.width = 128;
-  job.frame.height = 96;
+  job.frame.width = 128, job.frame.height = 96;
   EXPECT_LE(relative_rmse(render_both(job), "direct"), kTolerance);
 }
 

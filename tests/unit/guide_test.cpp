@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "compose/gbuffer.h"
 #include "gather/gather.h"
+#include "gather/gather_math.h"
 #include "shared/random.h"
 #include "shared/sampling.h"
 #include "support/field_scenes.h"
@@ -74,6 +76,34 @@ TEST(Guide, WeightsOfRaysAreThatOfBothKindsTogether) {
   EXPECT_EQ(guided_rays(0.125f, 8), 1u);
 }
 
+TEST(Guide, DirectionsInConesAreUniform) {
+  const vec3 axis = normalize(vec3(0.3f, -0.8f, 0.5f));
+  constexpr float kLeastCosine = 0.9f;
+  constexpr int kDirections = 4096;
+  RandomStream random = make_random_stream(1u, 1u, 1u);
+  std::array<int, 16> in_ring{};
+  for (int i = 0; i < kDirections; ++i) {
+    const vec3 direction = direction_in_cone(axis, kLeastCosine, next_uniform2(random));
+    EXPECT_NEAR(length(direction), 1.0f, 1e-5f);
+    EXPECT_TRUE(is_in_cone(direction, 2.5f * axis, 0.9999f * kLeastCosine));
+    const float place = (1.0f - dot(direction, axis)) / (1.0f - kLeastCosine);
+    ++in_ring.at(std::min(static_cast<std::size_t>(16.0f * place), std::size_t{15}));
+  }
+  // Rings of equal solid angle, within four standard errors
+  for (const int directions : in_ring) EXPECT_NEAR(directions, kDirections / 16, 4 * 16);
+  EXPECT_FALSE(is_in_cone(-axis, axis, kLeastCosine));
+  EXPECT_FLOAT_EQ(guided_density(kBrightPlaces, kLeastCosine), 1.0f / (0.1f * kTwoPi));
+}
+
+TEST(Guide, DifferencesBetweenBothKindsOfRaysAreNoNoise) {
+  // Two guided rays of 8 each, and two others of 1 and 3
+  const RaySums guided = {2u, 16.0f, 128.0f}, others = {2u, 4.0f, 10.0f};
+  EXPECT_FLOAT_EQ(variance_of_rays(guided, others), 4.0f);
+  const RaySums none = {0u, 0.0f, 0.0f}, one = {1u, 8.0f, 64.0f};
+  EXPECT_FLOAT_EQ(variance_of_rays(none, others), 4.0f);
+  EXPECT_FLOAT_EQ(variance_of_rays(one, others), variance_of_sum(12.0f, 74.0f, 3u));
+}
+
 /// Gathered light of a picture, over many samples.
 struct Gathered {
   double light = 0.0;     ///< Mean luminance.
@@ -85,8 +115,8 @@ Gathered gather_often(const test::Stage& stage, const IrradianceField& field,
   GBuffer gbuffer;
   trace_gbuffer(stage.world, stage.scene.cameras.at(0), frame, {0, frame.height}, 0, gbuffer);
   GatherRequest request{gbuffer.surfaces, gbuffer.hit, frame.width, 0, 8};
-  request.height = frame.height;
   request.guide = guide;
+  if (guide != nullptr) request.guide_size = guide->size(frame.width, frame.height);
   constexpr uint kSamples = 32;
   std::vector<double> sums(gbuffer.size()), squares(gbuffer.size());
   GatheredLight light;
@@ -114,10 +144,12 @@ TEST(Guide, LeavesTheLightAsItIsAndTakesNoiseAway) {
   const IrradianceField field = test::make_field(stage, settings, 4);
   FrameSettings frame;
   frame.width = frame.height = 24;
+  FrameSettings small;
+  small.width = small.height = 14;
   GBuffer pilot;
-  trace_gbuffer(stage.world, stage.scene.cameras.at(0), frame, {0, frame.height}, 0, pilot);
+  trace_gbuffer(stage.world, stage.scene.cameras.at(0), small, {0, small.height}, 0, pilot);
   GatherGuide guide;
-  const PilotView view{frame.width, frame.height, pilot.surfaces, pilot.hit};
+  const PilotView view{small.width, small.height, pilot.surfaces, pilot.hit};
   EXPECT_GT(make_guide(stage.world, field, view, 1, guide), 16 * pilot.size());
   const Gathered plain = gather_often(stage, field, frame, nullptr);
   const Gathered guided = gather_often(stage, field, frame, &guide);

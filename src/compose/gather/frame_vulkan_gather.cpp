@@ -25,6 +25,7 @@ void FramePassesVulkan::reserve_gather(std::size_t pixels, std::size_t rays) {
   reserve<float>(pixels_, "variance", m.gathered_variance);
   reserve<uint>(pixels, "gathering indices", m.gathering_indices);
   reserve<float>(rays, "gathering weights", m.gathering_weights);
+  reserve<uint>(pixels, "guided rays", m.guided_rays);
   reserve<uint>(rays, "secondary indices", m.secondary_indices);
   reserve<HitRecord>(rays, "gathered hits", m.gathered_hits);
   reserve<QueryRecord>(rays, "queries", m.queries);
@@ -68,6 +69,7 @@ void FramePassesVulkan::draw_gathers(const GatheredPixels& pixels) {
                                        {m.surfaces.address()},
                                        {m.gathers[0].rays.address()},
                                        {m.gathering_indices.address()},
+                                       {m.guided_rays.address()},
                                        {m.gathering_weights.address()},
                                        {m.guide_points.address()},
                                        {m.guide_places.address()},
@@ -135,6 +137,7 @@ void FramePassesVulkan::sum_gathers(const GatheredPixels& pixels) {
     const GatherSumArguments summed = {{m.points.address()},
                                        {m.surfaces.address()},
                                        {m.gathers[0].rays.address()},
+                                       {m.guided_rays.address()},
                                        {m.gathering_weights.address()},
                                        {m.gathers[0].shaded.address()},
                                        {m.gathers[0].direct.address()},

@@ -32,6 +32,7 @@ void main() {
                              args.seed);
   int by = guiding_point(args.size, rays, point.normal_ws);
   uint guided = by < 0 ? 0u : guided_rays(fetch_guide_point(by).share, args.rays_per_pixel);
+  args.guided.at[k] = guided;
   for (uint r = 0u; r < args.rays_per_pixel; ++r) {
     GatherRay drawn = gather_ray(rays, r, by, guided, point.position_ws, frame);
     uint at = k * args.rays_per_pixel + r;

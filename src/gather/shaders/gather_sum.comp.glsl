@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the irradiance of pixels from what their rays gathered: rays are drawn in proportion to
-// the cosine, so that it is pi times their mean radiance.
+// Computes the irradiance of pixels from what their rays gathered: pi times the mean of their
+// radiance, each times its weight.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shared/variance.h"
 #include "gather/gather_math.h"
 #include "gather/gather_records.h"
 #include "raytracing/surface_math.h"
@@ -26,12 +25,12 @@ void main() {
   vec3 sum = vec3(0.0f);
   vec3 excess = vec3(0.0f);
   vec3 known = args.keeps_excess != 0u ? args.known.at[i] : vec3(0.0f);
-  float luminances = 0.0f;
-  float squares = 0.0f;
+  RaySums guided = RaySums(0u, 0.0f, 0.0f);
+  RaySums others = RaySums(0u, 0.0f, 0.0f);
   for (uint r = 0u; r < args.rays_per_pixel; ++r) {
     uint at = k * args.rays_per_pixel + r;
     RayRecord ray = args.rays.at[at];
-    if (ray.mask == 0u) continue;
+    if (ray.mask == 0u) continue;  // so have all of the pixel
     vec3 brought =
         args.weights.at[at] *
         gathered_irradiance(above, point.geometric_normal_ws, ray.direction_ws,
@@ -40,13 +39,15 @@ void main() {
     float level = luminance(kept);
     sum += kept;
     excess += brought - kept;
-    luminances += level;
-    squares += level * level;
+    if (r < args.guided.at[k]) {
+      add_ray(guided, level);
+    } else {
+      add_ray(others, level);
+    }
   }
   args.irradiance.at[i] = share * sum;
   if (args.keeps_excess != 0u) args.excess.at[i] = share * excess;
   if (args.rays_per_pixel > 1u) {
-    args.variance.at[i] =
-        share * share * variance_of_sum(luminances, squares, args.rays_per_pixel);
+    args.variance.at[i] = share * share * variance_of_rays(guided, others);
   }
 }
