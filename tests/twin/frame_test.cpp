@@ -277,8 +277,7 @@ TEST_F(Frame, WithFilteredLightIsTheSame) {
   // Of one ray a pixel, whose variance is estimated, and of several, whose variance is measured
   for (const int rays : {1, 4}) {
     Job job = small("cornell");
-    job.frame.width = 32;
-    job.frame.height = 24;
+    job.frame.width = 32, job.frame.height = 24;
     job.frame.gather_rays = rays;
     job.frame.denoise = true;
     expect_alike(render_both(job));
