@@ -19,8 +19,9 @@ namespace {
 // Rays of a point. Pools of 25 points have 400 of them, which find what is a hundredth of the
 // hemisphere.
 constexpr uint kPilotRays = 16;
-// Points of a task on the processor. A device is asked for all at once.
-constexpr std::size_t kPointsPerTask = 128;
+// Points of a task on the processor, and of one whose rays a device traces, which waits for each
+// task: 65,536 rays, in about 15 MB.
+constexpr std::size_t kPointsPerTask = 128, kPointsPerDeviceTask = 4096;
 
 // The pilot's rays with what they meet, and the places drawn from that, have random numbers of
 // their own by these salts.
@@ -190,7 +191,7 @@ std::uint64_t make_guide(const World& world, const IrradianceField& field, const
                    0);
   std::atomic<std::uint64_t> traced = 0;
   const std::size_t at_a_time =
-      device_world_of(world) != nullptr ? view.seen.size() : kPointsPerTask;
+      device_world_of(world) != nullptr ? kPointsPerDeviceTask : kPointsPerTask;
   parallel_chunks(view.seen.size(), at_a_time, [&](std::size_t begin, std::size_t end) {
     GatheringRays rays;
     ShadeHitsScratch scratch;

@@ -47,8 +47,7 @@ LAMBENT_FN int guiding_point(GuideSize size, PixelRays rays, vec3 normal_ws) {
 /// Direction of a ray that a point of the pilot guides.
 LAMBENT_FN vec3 guided_direction(PixelRays rays, uint ray, int point, vec3 position_ws,
                                  Frame frame) {
-  vec2 u = pixel_point(rays.x, rays.y, ray, rays.count, rays.sample_index,
-                       rays.seed ^ kGuidedSalt);
+  vec2 u = pixel_point(rays.x, rays.y, ray, rays.count, rays.sample_index, rays.seed ^ kGuidedSalt);
   int place = min(int(u.x * float(kBrightPlaces)), kBrightPlaces - 1);
   vec3 to_place = fetch_bright_place(point * kBrightPlaces + place) - position_ws;
   // A place at the pixel itself is in no direction: such a ray brings nothing
@@ -76,8 +75,8 @@ LAMBENT_FN GatherRay gather_ray(PixelRays rays, uint ray, int point, uint guided
     vec3 to_place = fetch_bright_place(point * kBrightPlaces + k) - position_ws;
     if (is_in_cone(drawn.direction_ws, to_place, least_cosine)) ++cones;
   }
-  drawn.weight = guided_weight(dot(drawn.direction_ws, frame.normal),
-                               guided_density(float(cones), least_cosine),
-                               float(guided) / float(rays.count));
+  drawn.weight =
+      guided_weight(dot(drawn.direction_ws, frame.normal),
+                    guided_density(float(cones), least_cosine), float(guided) / float(rays.count));
   return drawn;
 }
