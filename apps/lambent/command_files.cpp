@@ -2,7 +2,6 @@
 #include "lambent/command_files.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <filesystem>
 #include <optional>
@@ -11,6 +10,7 @@
 #include <system_error>
 
 #include "lambent/render_output.h"
+#include "lambent/words.h"
 #include "scene/gltf/files.h"
 #include "scenes/builtin.h"
 
@@ -18,12 +18,6 @@ namespace lambent::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool same_but_for_case(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [&](char x, char y) { return lower(x) == lower(y); });
-}
 
 /// The position of the number in a sequence's paths: the directory, and the text before and after
 /// it.

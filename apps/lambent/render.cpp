@@ -49,10 +49,8 @@ Expected<void> render_picture(const RenderOptions& options, const World& world,
 Expected<int> chosen_animation(const RenderOptions& options, const Scene& scene) {
   if (options.animation.empty()) return -1;
   std::vector<std::string> names;
-  for (int i = 0; i < static_cast<int>(scene.animations.size()); ++i) {
-    names.push_back(scene.animations[i].name);
-    if (options.animation == names.back() || options.animation == std::to_string(i)) return i;
-  }
+  for (const Animation& known : scene.animations) names.push_back(known.name);
+  if (const auto index = index_of(options.animation, names)) return static_cast<int>(*index);
   return fail("--animation", "", no_such("animation", options.animation, names));
 }
 

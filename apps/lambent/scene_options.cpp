@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <glm/gtc/constants.hpp>
 
@@ -25,17 +24,9 @@ constexpr float kDefaultFov = 45.0f;  // vertical [degrees]
 constexpr float kSmallestFov = 1.0f, kLargestFov = 170.0f;
 
 Expected<Camera> named_camera(const std::string& wanted, const Scene& scene) {
-  for (const Camera& camera : scene.cameras) {
-    if (camera.name == wanted) return camera;
-  }
-  std::size_t index = 0;
-  const char* last = wanted.data() + wanted.size();
-  const auto [stop, error] = std::from_chars(wanted.data(), last, index);
-  if (error == std::errc() && stop == last && index < scene.cameras.size()) {
-    return scene.cameras[index];
-  }
   std::vector<std::string> names;
   for (const Camera& known : scene.cameras) names.push_back(known.name);
+  if (const auto index = index_of(wanted, names)) return scene.cameras[*index];
   return fail("--camera", "", no_such("camera", wanted, names));
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 
@@ -81,6 +83,27 @@ std::string printable(const std::string& text) {
     clean += byte < 0x20 || byte == 0x7f ? '?' : c;
   }
   return clean;
+}
+
+bool same_but_for_case(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+std::optional<std::size_t> index_of(const std::string& wanted,
+                                    const std::vector<std::string>& names) {
+  const auto place = [&](auto found) { return static_cast<std::size_t>(found - names.begin()); };
+  if (const auto found = std::ranges::find(names, wanted); found != names.end()) {
+    return place(found);
+  }
+  std::size_t index = 0;
+  const char* last = wanted.data() + wanted.size();
+  const auto [stop, error] = std::from_chars(wanted.data(), last, index);
+  if (error == std::errc() && stop == last && index < names.size()) return index;
+  const auto same = [&](const std::string& name) { return same_but_for_case(name, wanted); };
+  if (std::ranges::count_if(names, same) != 1) return std::nullopt;
+  return place(std::ranges::find_if(names, same));
 }
 
 std::string no_such(const std::string& kind, const std::string& wanted,

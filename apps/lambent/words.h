@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lambent::cli {
@@ -32,6 +34,14 @@ std::string exposure_text(float stops);
 /// The text without control characters: names come from files, and nothing in them may reach the
 /// terminal as an escape sequence.
 std::string printable(const std::string& text);
+
+/// Whether two texts differ in the case of ASCII letters at most.
+bool same_but_for_case(std::string_view a, std::string_view b);
+
+/// The index of the object that a user calls by its name or index: the first of that name, else the
+/// one of that index, else the only one whose name differs in the case of ASCII letters alone.
+std::optional<std::size_t> index_of(const std::string& wanted,
+                                    const std::vector<std::string>& names);
 
 /// The error for a name or index that does not exist in a scene: "no camera 'hal'; the scene has 2
 /// cameras: 0 'door', 1 'hall'; did you mean 'hall'?". `kind` is the kind of object.

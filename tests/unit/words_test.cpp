@@ -19,6 +19,18 @@ TEST(Words, BytesHaveTheUnitThatKeepsThemShort) {
   EXPECT_EQ(bytes_text(5e15), "5000.0 TB");
 }
 
+TEST(Words, ObjectsAreFoundByNameByIndexAndWhateverTheCase) {
+  const std::vector<std::string> names = {"Kitchen", "hall", "Hall", "1", "Attic"};
+  EXPECT_EQ(index_of("Hall", names), 2u);
+  EXPECT_EQ(index_of("1", names), 3u);  // a name before an index
+  EXPECT_EQ(index_of("0", names), 0u);
+  EXPECT_EQ(index_of("kitchen", names), 0u);
+  EXPECT_EQ(index_of("HALL", names), std::nullopt);  // two may be meant
+  EXPECT_EQ(index_of("5", names), std::nullopt);
+  EXPECT_EQ(index_of("0x", names), std::nullopt);
+  EXPECT_EQ(index_of("", names), std::nullopt);
+}
+
 TEST(Words, SecondsHaveDigitsThatMatter) {
   EXPECT_EQ(seconds_text(0.4249), "0.42 s");
   EXPECT_EQ(seconds_text(12.34), "12.3 s");
