@@ -53,9 +53,9 @@ constexpr std::uint64_t kRsmStageBytes = 5 * kLayerBytes;
 constexpr std::uint64_t kComparisonBytes = 180;
 // A froxel of fog: lit, smoothed, and averaged over frames.
 constexpr std::uint64_t kFroxelBytes = 3 * 4 * sizeof(float);
-// Memory that does not depend on the size [bytes]: bands, maps, the guide of gathering rays (40
+// Memory that does not depend on the size [bytes]: bands, maps, the guide of gathering rays (60
 // MB), buffers of files, and heaps of threads.
-constexpr std::uint64_t kFixedBytes = std::uint64_t{140} << 20;
+constexpr std::uint64_t kFixedBytes = std::uint64_t{160} << 20;
 // Least number of rays per probe.
 constexpr std::uint64_t kMinRays = 16;
 

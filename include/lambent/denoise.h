@@ -62,9 +62,10 @@ struct DenoiseSettings {
   int passes = 6;
   /// Number of first passes that ignore differences of light and stop only at edges of surfaces, 1
   /// to `passes`. The noise is estimated in them. Light of few rays needs two, since a bright ray
-  /// differs from everything around it. Exceptions, unless all passes are geometric:
-  /// - light with a base and a variance: only the first pass ignores differences of light, the
-  ///   others of this number stop at those beyond the noise of both pixels;
+  /// differs from everything around it. Exceptions:
+  /// - light with a base and a variance, unless this is all `passes`: only the first pass ignores
+  ///   differences of light, the others of this number stop at those beyond the noise of both
+  ///   pixels;
   /// - light with a variance and levels: the first pass averages the variance and leaves the light
   ///   unchanged, and the pixels of all other passes are half as far apart; light that single rare
   ///   samples brought (fireflies) is taken off first and spread over 15 x 15 pixels without regard

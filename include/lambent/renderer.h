@@ -55,7 +55,7 @@ struct FrameSettings {
   /// Whether up to half of a sample's gathering rays, where there are several, go where a pilot
   /// found most of the light: a picture an eighth as large, 64 to 256 pixels along its longer side
   /// unless the picture has less, with 16 rays a pixel. Less noise where light comes from small
-  /// bright places; takes up to 40 MB. Has no effect with one gathering ray.
+  /// bright places; takes up to 60 MB. Has no effect with one gathering ray.
   bool guides_gathers = true;
   /// Specular reflections of roughness below 0.95 are traced with a ray at each pixel of every
   /// `glossy_rows`-th row, 1 to 8, and at each pixel of roughness up to 0.5. 0: specular lobes

@@ -221,8 +221,7 @@ class FramePassesCpu final : public FramePasses {
         static_cast<std::uint32_t>(drawn_sample()),
         settings.seed,
         settings.denoise ? std::span<const vec3>(light_.irradiance) : std::span<const vec3>(),
-        guides_gathers(request()) ? &guide_ : nullptr,
-        guide_.size(settings.width, settings.height)};
+        guides_gathers(request()) ? &guide_ : nullptr};
     now_->frame.rays +=
         gather_irradiance(request().world, *request().sources.field, asked, gathered_);
     if (!settings.denoise) light_.irradiance.swap(gathered_.irradiance);

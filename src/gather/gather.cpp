@@ -38,9 +38,7 @@ struct GuidedRays {
 class GatherChunk {
  public:
   GatherChunk(const GatherRequest& request, std::size_t begin, std::size_t end)
-      : request_(request),
-        rays_per_pixel_(static_cast<std::size_t>(request.rays_per_pixel)),
-        size_(request.guide_size) {
+      : request_(request), rays_per_pixel_(static_cast<std::size_t>(request.rays_per_pixel)) {
     for (std::size_t i = begin; i < end; ++i) {
       if (request.seen[i] != 0) add_rays(i);
     }
@@ -58,7 +56,7 @@ class GatherChunk {
       const float above =
           above_horizon(surface.gi_share, dot(surface.normal_ws, geometric_normal_ws));
       vec3 sum(0.0f), excess(0.0f);
-      RaySums guided = {0u, 0.0f, 0.0f}, others = {0u, 0.0f, 0.0f};
+      RaySums guided = {0.0f, 0.0f}, others = {0.0f, 0.0f};
       for (std::size_t r = p * rays_per_pixel_; r < (p + 1) * rays_per_pixel_; ++r) {
         const vec3 brought =
             weights_[r] * gathered_irradiance(above, geometric_normal_ws, rays_.rays[r].direction,
@@ -74,7 +72,9 @@ class GatherChunk {
       light.irradiance[pixels_[p]] = share * sum;
       if (!known.empty()) light.excess[pixels_[p]] = share * excess;
       if (light.variance.empty()) continue;
-      light.variance[pixels_[p]] = share * share * variance_of_rays(guided, others);
+      light.variance[pixels_[p]] =
+          share * share *
+          variance_of_rays(guided, others, guided_[p], static_cast<uint>(rays_per_pixel_));
     }
   }
 
@@ -92,21 +92,21 @@ class GatherChunk {
         request_.sample, request_.seed};
     const std::size_t place = static_cast<std::size_t>(request_.first_row) * width + pixel;
     GuidedRays drawing{request_.guide};
-    const int point = drawing.guiding_point(size_, rays, surface.normal_ws);
+    const int point = request_.guide == nullptr
+                          ? -1
+                          : drawing.guiding_point(request_.guide->size, rays, surface.normal_ws);
     const uint guided = point < 0 ? 0u : guided_rays(drawing.fetch_guide_point(point).share, count);
     guided_.push_back(guided);
     for (uint ray = 0; ray < count; ++ray) {
       const GuidedRays::GatherRay drawn =
           drawing.gather_ray(rays, ray, point, guided, surface.position_ws, frame);
-      rays_.rays.push_back({origin, 0.0f, drawn.direction_ws, kInfiniteDistance, kRayGathers});
-      rays_.indices.push_back(place * rays_per_pixel_ + ray);
+      rays_.add(origin, drawn.direction_ws, place * rays_per_pixel_ + ray);
       weights_.push_back(drawn.weight);
     }
   }
 
   const GatherRequest& request_;
   std::size_t rays_per_pixel_;
-  GuideSize size_;
   std::vector<std::size_t> pixels_;
   std::vector<uint> guided_;    // number of each pixel's guided rays, which are its first
   std::vector<float> weights_;  // of the rays' contributions

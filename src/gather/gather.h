@@ -7,12 +7,13 @@
 #include <span>
 #include <vector>
 
-#include "gather/guide.h"
 #include "lambent/field.h"
 #include "lambent/world.h"
 #include "raytracing/surface.h"
 
 namespace lambent {
+
+struct GatherGuide;
 
 /// Pixels of some rows of a picture, and how their light is gathered.
 struct GatherRequest {
@@ -26,7 +27,6 @@ struct GatherRequest {
   /// Irradiance from lookups of the field at each pixel; empty: no excess is split off.
   std::span<const glm::vec3> known = {};
   const GatherGuide* guide = nullptr;  ///< Null: no rays are guided.
-  GuideSize guide_size = {};           ///< GatherGuide::size() for the picture, where there is one.
 };
 
 /// The gathered light, one element a pixel.

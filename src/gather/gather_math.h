@@ -25,26 +25,25 @@ LAMBENT_FN vec3 kept_of_ray(vec3 brought, vec3 known) {
 
 /// Sums over rays of a pixel that were drawn in one way.
 struct RaySums {
-  uint count;
   float luminances, squares;
 };
 
 LAMBENT_FN void add_ray(LAMBENT_INOUT(RaySums) sums, float luminance_of_ray) {
-  sums.count += 1u;
   sums.luminances += luminance_of_ray;
   sums.squares += luminance_of_ray * luminance_of_ray;
 }
 
-/// Variance of the sum of a pixel's rays' luminances. Guided rays and others have means of their
-/// own, whose difference is no noise; it counts as such where either kind is a single ray, whose
-/// variance is unknown.
-LAMBENT_FN float variance_of_rays(RaySums guided, RaySums others) {
-  if (guided.count == 1u || others.count == 1u || guided.count == 0u) {
+/// Variance of the sum of the luminances of a pixel's rays, of which so many are guided. These and
+/// the others have means of their own, whose difference is no noise; it counts as such where either
+/// kind is a single ray, whose variance is unknown.
+LAMBENT_FN float variance_of_rays(RaySums guided, RaySums others, uint guided_count, uint count) {
+  uint others_count = count - guided_count;
+  if (guided_count <= 1u || others_count <= 1u) {
     return variance_of_sum(guided.luminances + others.luminances, guided.squares + others.squares,
-                           guided.count + others.count);
+                           count);
   }
-  return variance_of_sum(guided.luminances, guided.squares, guided.count) +
-         variance_of_sum(others.luminances, others.squares, others.count);
+  return variance_of_sum(guided.luminances, guided.squares, guided_count) +
+         variance_of_sum(others.luminances, others.squares, others_count);
 }
 
 LAMBENT_END

@@ -41,7 +41,7 @@ constexpr int kShareSteps = 8;
 // rays' cones overlap, and leave no gaps within what is bright. With 4 or 12 there is more noise.
 constexpr float kConeOverRay = 6.0f;
 // Of small pools, so that cones stay cones.
-constexpr float kMaxConeAngle = 1.0f;  // [sr]
+constexpr float kMaxSolidAngle = 1.0f;  // [sr]
 
 /// A ray that left the scene ends this far away [m], far beyond any picture's parallax.
 constexpr float kSkyDistance = 1e6f;
@@ -53,17 +53,17 @@ float straight_distance(const ShadedHit& hit) {
   return sky ? kSkyDistance : hit.point.viewer_distance;
 }
 
-void add_rays(const PilotView& view, std::size_t point, std::uint32_t seed, GatheringRays& rays) {
+/// Adds the rays of a point of a pilot of this width [pixels].
+void add_rays(const PilotView& view, int pilot_width, std::size_t point, std::uint32_t seed,
+              GatheringRays& rays) {
   const Surface& surface = view.surfaces[point];
   const Frame frame = make_frame(surface.normal_ws);
   const vec3 origin_ws = offset_ray_origin(surface.position_ws, surface.geometric_normal_ws);
-  const auto width = static_cast<std::size_t>(view.width);
+  const auto width = static_cast<std::size_t>(pilot_width);
   const auto x = static_cast<uint>(point % width), y = static_cast<uint>(point / width);
   for (uint ray = 0; ray < kPilotRays; ++ray) {
     const vec2 drawn = pixel_point(x, y, ray, kPilotRays, kPilotSalt, seed);
-    rays.rays.push_back(
-        {origin_ws, 0.0f, gather_direction(frame, drawn), kInfiniteDistance, kRayGathers});
-    rays.indices.push_back(point * kPilotRays + ray);
+    rays.add(origin_ws, gather_direction(frame, drawn), point * kPilotRays + ray);
   }
 }
 
@@ -75,13 +75,14 @@ struct Pool {
 };
 
 Pool pool_around(std::span<const PilotHit> hits, const GatherGuide& guide, int x, int y) {
+  const int width = guide.size.width, height = guide.size.height;
   const std::size_t per_point = hits.size() / guide.points.size();
-  const vec3 normal_ws = guide.points[static_cast<std::size_t>(y) * guide.width + x].normal_ws;
+  const vec3 normal_ws = guide.points[static_cast<std::size_t>(y) * width + x].normal_ws;
   Pool pool;
   double light = 0.0;
-  for (int b = std::max(y - kPoolReach, 0); b <= std::min(y + kPoolReach, guide.height - 1); ++b) {
-    for (int a = std::max(x - kPoolReach, 0); a <= std::min(x + kPoolReach, guide.width - 1); ++a) {
-      const std::size_t i = static_cast<std::size_t>(b) * guide.width + a;
+  for (int b = std::max(y - kPoolReach, 0); b <= std::min(y + kPoolReach, height - 1); ++b) {
+    for (int a = std::max(x - kPoolReach, 0); a <= std::min(x + kPoolReach, width - 1); ++a) {
+      const std::size_t i = static_cast<std::size_t>(b) * width + a;
       if (dot(guide.points[i].normal_ws, normal_ws) < kPoolCosine) continue;
       for (const PilotHit& hit : hits.subspan(i * per_point, per_point)) {
         light += hit.luminance;
@@ -160,12 +161,12 @@ void place_point(std::span<const PilotHit> hits, vec3 position_ws, std::uint32_t
   GuidePoint& point = guide.points[index];
   point.share = 0.0f;
   if (point.normal_ws == vec3(0.0f)) return;
-  const auto width = static_cast<std::size_t>(guide.width);
+  const auto width = static_cast<std::size_t>(guide.size.width);
   const Pool pool =
       pool_around(hits, guide, static_cast<int>(index % width), static_cast<int>(index / width));
   if (pool.bright.empty()) return;
   const float solid_angle =
-      min(kConeOverRay * kTwoPi / static_cast<float>(pool.hits.size()), kMaxConeAngle);
+      min(kConeOverRay * kTwoPi / static_cast<float>(pool.hits.size()), kMaxSolidAngle);
   point.least_cosine = 1.0f - solid_angle / kTwoPi;
   RandomStream random = make_random_stream(static_cast<uint>(index), kPlacesSalt, seed);
   const auto places = std::span(guide.places).subspan(index * kBrightPlaces, kBrightPlaces);
@@ -177,8 +178,6 @@ void place_point(std::span<const PilotHit> hits, vec3 position_ws, std::uint32_t
 
 std::uint64_t make_guide(const World& world, const IrradianceField& field, const PilotView& view,
                          std::uint32_t seed, GatherGuide& guide) {
-  guide.width = view.width;
-  guide.height = view.height;
   guide.points.assign(view.seen.size(), GuidePoint{vec3(0.0f), 1.0f, 0.0f});
   std::vector<vec3> positions_ws(view.seen.size());
   std::vector<PilotHit> hits(view.seen.size() * kPilotRays, PilotHit{vec3(0.0f), 0.0f});
@@ -199,7 +198,7 @@ std::uint64_t make_guide(const World& world, const IrradianceField& field, const
       if (view.seen[i] == 0) continue;
       positions_ws[i] = view.surfaces[i].position_ws;
       guide.points[i].normal_ws = view.surfaces[i].normal_ws;
-      add_rays(view, i, seed, rays);
+      add_rays(view, guide.size.width, i, seed, rays);
     }
     traced += rays.light(by, scratch);
     for (std::size_t i = 0; i < rays.rays.size(); ++i) {

@@ -15,20 +15,14 @@ namespace lambent {
 
 /// Where the rays of a picture's pixels should go.
 struct GatherGuide {
-  int width = 0, height = 0;  ///< Of the pilot's picture [pixels]; 0: there is no pilot.
-  std::vector<GuidePoint> points;
+  GuideSize size{};
+  std::vector<GuidePoint> points;  ///< One a pixel of the pilot's picture.
   /// kBrightPlaces for each point [m]; undefined where its share is 0.
   std::vector<glm::vec3> places;
-
-  /// For the rays of a picture of this size [pixels].
-  GuideSize size(int picture_width, int picture_height) const {
-    return {picture_width, picture_height, width, height};
-  }
 };
 
-/// What the pilot's picture sees.
+/// What the pilot's picture sees, one element a pixel.
 struct PilotView {
-  int width = 0, height = 0;           ///< [pixels]
   std::span<const Surface> surfaces;   ///< Undefined where `seen` is 0.
   std::span<const std::uint8_t> seen;  ///< 1 where a pixel shows a surface.
 };
@@ -39,12 +33,13 @@ struct PilotHit {
   float luminance;  ///< Of the light that it brings [W/(m^2 sr)].
 };
 
-/// Gathers the pilot's light. Returns the number of rays traced, including shadow rays.
+/// Gathers the light of a pilot whose size the guide has. Returns the number of rays traced,
+/// including shadow rays.
 std::uint64_t make_guide(const World& world, const IrradianceField& field, const PilotView& view,
                          std::uint32_t seed, GatherGuide& guide);
 
 /// Chooses bright places for the guide's points among the hits of the pilot's rays, the same number
-/// for each point. The guide's sizes and the points' normals and positions are given.
+/// for each point. The guide's size and the points' normals and positions are given.
 void place_guide(std::span<const PilotHit> hits, std::span<const glm::vec3> positions_ws,
                  std::uint32_t seed, GatherGuide& guide);
 

@@ -53,7 +53,8 @@ LAMBENT_FN vec3 guided_direction(PixelRays rays, uint ray, int point, vec3 posit
   // A place at the pixel itself is in no direction: such a ray brings nothing
   vec3 axis_ws = to_place == vec3(0.0f) ? -frame.normal : normalize(to_place);
   vec2 in_cone = vec2(u.x * float(kBrightPlaces) - float(place), u.y);
-  return direction_in_cone(axis_ws, fetch_guide_point(point).least_cosine, in_cone);
+  return to_world(make_frame(axis_ws),
+                  sample_uniform_cone(in_cone, fetch_guide_point(point).least_cosine));
 }
 
 /// One of a pixel's rays, of which the first `guided` are guided by a point of the pilot. The

@@ -50,14 +50,6 @@ LAMBENT_FN uint guided_rays(float share, uint rays) {
   return min(uint(share * float(rays) + 0.5f), rays / 2u);
 }
 
-/// A direction within a cone, uniform over its solid angle.
-LAMBENT_FN vec3 direction_in_cone(vec3 axis_ws, float least_cosine, vec2 u) {
-  float z = 1.0f - u.x * (1.0f - least_cosine);
-  float radius = sqrt(max(0.0f, 1.0f - z * z));
-  float angle = kTwoPi * u.y;
-  return to_world(make_frame(axis_ws), vec3(radius * cos(angle), radius * sin(angle), z));
-}
-
 /// Whether a direction is within the cone around the direction to a place.
 LAMBENT_FN bool is_in_cone(vec3 direction_ws, vec3 to_place, float least_cosine) {
   float along = dot(direction_ws, to_place);
@@ -66,8 +58,7 @@ LAMBENT_FN bool is_in_cone(vec3 direction_ws, vec3 to_place, float least_cosine)
 
 /// Density of guided rays [1/sr] in a direction that is within so many of the cones.
 LAMBENT_FN float guided_density(float cones, float least_cosine) {
-  float solid_angle = kTwoPi * (1.0f - least_cosine);
-  return cones / (float(kBrightPlaces) * solid_angle);
+  return cones / float(kBrightPlaces) * pdf_uniform_cone(least_cosine);
 }
 
 /// The factor of a ray's contribution, 1 where all rays are drawn by the cosine. This share of the

@@ -51,12 +51,21 @@ LAMBENT_FN vec2 invert_cosine_hemisphere(vec3 direction) {
               angle < 0.0f ? angle + 1.0f : angle);
 }
 
-/// A uniform direction of the sphere. Density 1/(4 pi).
-LAMBENT_FN vec3 sample_uniform_sphere(vec2 u) {
-  float z = 1.0f - 2.0f * u.x;
+/// A uniform direction of the cone about +Z whose sides have this cosine to its axis.
+LAMBENT_FN vec3 sample_uniform_cone(vec2 u, float least_cosine) {
+  float z = 1.0f - (1.0f - least_cosine) * u.x;
   float radius = sqrt(max(0.0f, 1.0f - z * z));
   float angle = kTwoPi * u.y;
   return vec3(radius * cos(angle), radius * sin(angle), z);
+}
+
+LAMBENT_FN float pdf_uniform_cone(float least_cosine) {
+  return 1.0f / (kTwoPi * (1.0f - least_cosine));
+}
+
+/// A uniform direction of the sphere. Density 1/(4 pi).
+LAMBENT_FN vec3 sample_uniform_sphere(vec2 u) {
+  return sample_uniform_cone(u, -1.0f);
 }
 
 LAMBENT_FN float pdf_uniform_sphere() {

@@ -8,9 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "compose/gbuffer.h"
 #include "gather/gather_math.h"
-#include "support/field_scenes.h"
+#include "support/many_gathers.h"
 
 namespace lambent::gather_test {
 namespace {
@@ -64,19 +63,12 @@ IrradianceField coarse_field(const test::Stage& stage) {
   return test::make_field(stage, settings, 2);
 }
 
-/// What the scene's first camera sees.
-GBuffer seen_of(const test::Stage& stage, const FrameSettings& frame) {
-  GBuffer gbuffer;
-  trace_gbuffer(stage.world, stage.scene.cameras.at(0), frame, {0, frame.height}, 0, gbuffer);
-  return gbuffer;
-}
-
 TEST(Gather, WhatRareBrightRaysBringIsKeptApartAndNotLost) {
   const test::Stage stage("cornell");
   const IrradianceField field = coarse_field(stage);
   FrameSettings frame;
   frame.width = frame.height = 40;
-  const GBuffer gbuffer = seen_of(stage, frame);
+  const GBuffer gbuffer = test::seen_of(stage, frame);
   GatherRequest request{gbuffer.surfaces, gbuffer.hit, frame.width, 0, 8};
   GatheredLight whole, apart;
   gather_irradiance(stage.world, field, request, whole);
@@ -110,7 +102,7 @@ float gathered_light(int probes, int updates) {
   const test::Stage stage("cornell");
   FrameSettings frame;
   frame.width = frame.height = 24;
-  const GBuffer gbuffer = seen_of(stage, frame);
+  const GBuffer gbuffer = test::seen_of(stage, frame);
   const GatherRequest request{gbuffer.surfaces, gbuffer.hit, frame.width, 0, 64};
   FieldSettings settings;
   settings.probe_count = glm::ivec3(probes);
@@ -138,28 +130,13 @@ TEST(Gather, TellsHowNoisyItsLightIs) {
   const IrradianceField field = coarse_field(stage);
   FrameSettings frame;
   frame.width = frame.height = 24;
-  const GBuffer gbuffer = seen_of(stage, frame);
+  const GBuffer gbuffer = test::seen_of(stage, frame);
   GatherRequest request{gbuffer.surfaces, gbuffer.hit, frame.width, 0, 16};
-  // Compare what one gather says with how much gathers of other samples differ
-  constexpr uint kGathers = 12;
-  std::vector<float> sums(gbuffer.size()), squares(gbuffer.size());
-  double said = 0.0, seen = 0.0;
-  GatheredLight light;
-  for (request.sample = 0; request.sample < kGathers; ++request.sample) {
-    gather_irradiance(stage.world, field, request, light);
-    for (std::size_t i = 0; i < gbuffer.size(); ++i) {
-      const float level = luminance(light.irradiance[i]);
-      sums[i] += level;
-      squares[i] += level * level;
-      said += light.variance[i] / kGathers;
-    }
-  }
-  for (std::size_t i = 0; i < gbuffer.size(); ++i) {
-    seen += (squares[i] - sums[i] * sums[i] / kGathers) / (kGathers - 1);
-  }
+  const test::ManyGathers gathers = test::gather_often(stage, field, request, 12);
   // Points that cover the hemisphere evenly are less noisy than independent ones
-  EXPECT_LT(seen, said);
-  EXPECT_GT(seen, 0.1 * said);
+  EXPECT_LT(gathers.variance, gathers.told_variance);
+  EXPECT_GT(gathers.variance, 0.1 * gathers.told_variance);
+  GatheredLight light;
   request.rays_per_pixel = 1;
   gather_irradiance(stage.world, field, request, light);
   EXPECT_TRUE(light.variance.empty());

@@ -4,15 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
-#include "compose/gbuffer.h"
-#include "gather/gather.h"
 #include "gather/gather_math.h"
 #include "shared/random.h"
 #include "shared/sampling.h"
-#include "support/field_scenes.h"
+#include "support/many_gathers.h"
 
 namespace lambent::guide_test {
 namespace {
@@ -21,11 +18,11 @@ constexpr int kSide = 5;  // of the pilots below [pixels]
 constexpr std::size_t kPoints = kSide * kSide;
 constexpr std::size_t kRays = 16;
 
-/// The guide of a floor at the origin under a dome of radius 1 m with this luminance, of which each
-/// ray knows the product with a random number of mean 1.
+/// The guide of a floor at the origin under a dome of radius 1 m. Its luminance is a function of
+/// the direction and of a number that is uniform at random for each ray.
 template <class Luminance>
 GatherGuide guide_under(Luminance luminance_of) {
-  GatherGuide guide{kSide, kSide, {}, {}};
+  GatherGuide guide{{kSide, kSide, kSide, kSide}, {}, {}};
   guide.points.assign(kPoints, GuidePoint{vec3(0.0f, 0.0f, 1.0f), 1.0f, 0.0f});
   const std::vector<vec3> positions_ws(kPoints, vec3(0.0f));
   std::vector<PilotHit> hits;
@@ -76,65 +73,27 @@ TEST(Guide, WeightsOfRaysAreThatOfBothKindsTogether) {
   EXPECT_EQ(guided_rays(0.125f, 8), 1u);
 }
 
-TEST(Guide, DirectionsInConesAreUniform) {
-  const vec3 axis = normalize(vec3(0.3f, -0.8f, 0.5f));
+TEST(Guide, DensityIsThatOfTheConesAroundADirection) {
   constexpr float kLeastCosine = 0.9f;
-  constexpr int kDirections = 4096;
-  RandomStream random = make_random_stream(1u, 1u, 1u);
-  std::array<int, 16> in_ring{};
-  for (int i = 0; i < kDirections; ++i) {
-    const vec3 direction = direction_in_cone(axis, kLeastCosine, next_uniform2(random));
-    EXPECT_NEAR(length(direction), 1.0f, 1e-5f);
-    EXPECT_TRUE(is_in_cone(direction, 2.5f * axis, 0.9999f * kLeastCosine));
-    const float place = (1.0f - dot(direction, axis)) / (1.0f - kLeastCosine);
-    ++in_ring.at(std::min(static_cast<std::size_t>(16.0f * place), std::size_t{15}));
-  }
-  // Rings of equal solid angle, within four standard errors
-  for (const int directions : in_ring) EXPECT_NEAR(directions, kDirections / 16, 4 * 16);
+  const vec3 axis = normalize(vec3(0.3f, -0.8f, 0.5f));
+  const Frame frame = make_frame(axis);
+  const vec3 inside = to_world(frame, sample_uniform_cone(vec2(0.99f, 0.2f), kLeastCosine));
+  const vec3 outside = to_world(frame, sample_uniform_cone(vec2(0.99f, 0.2f), 0.88f));
+  EXPECT_TRUE(is_in_cone(inside, 2.5f * axis, kLeastCosine));
+  EXPECT_FALSE(is_in_cone(outside, 2.5f * axis, kLeastCosine));
   EXPECT_FALSE(is_in_cone(-axis, axis, kLeastCosine));
   EXPECT_FLOAT_EQ(guided_density(kBrightPlaces, kLeastCosine), 1.0f / (0.1f * kTwoPi));
+  EXPECT_FLOAT_EQ(guided_density(kBrightPlaces / 2, kLeastCosine), 0.5f / (0.1f * kTwoPi));
 }
 
 TEST(Guide, DifferencesBetweenBothKindsOfRaysAreNoNoise) {
   // Two guided rays of 8 each, and two others of 1 and 3
-  const RaySums guided = {2u, 16.0f, 128.0f}, others = {2u, 4.0f, 10.0f};
-  EXPECT_FLOAT_EQ(variance_of_rays(guided, others), 4.0f);
-  const RaySums none = {0u, 0.0f, 0.0f}, one = {1u, 8.0f, 64.0f};
-  EXPECT_FLOAT_EQ(variance_of_rays(none, others), 4.0f);
-  EXPECT_FLOAT_EQ(variance_of_rays(one, others), variance_of_sum(12.0f, 74.0f, 3u));
-}
-
-/// Gathered light of a picture, over many samples.
-struct Gathered {
-  double light = 0.0;     ///< Mean luminance.
-  double variance = 0.0;  ///< Of a pixel's samples, the mean of all pixels.
-};
-
-Gathered gather_often(const test::Stage& stage, const IrradianceField& field,
-                      const FrameSettings& frame, const GatherGuide* guide) {
-  GBuffer gbuffer;
-  trace_gbuffer(stage.world, stage.scene.cameras.at(0), frame, {0, frame.height}, 0, gbuffer);
-  GatherRequest request{gbuffer.surfaces, gbuffer.hit, frame.width, 0, 8};
-  request.guide = guide;
-  if (guide != nullptr) request.guide_size = guide->size(frame.width, frame.height);
-  constexpr uint kSamples = 32;
-  std::vector<double> sums(gbuffer.size()), squares(gbuffer.size());
-  GatheredLight light;
-  for (request.sample = 0; request.sample < kSamples; ++request.sample) {
-    gather_irradiance(stage.world, field, request, light);
-    for (std::size_t i = 0; i < gbuffer.size(); ++i) {
-      const double level = luminance(light.irradiance[i]);
-      sums[i] += level;
-      squares[i] += level * level;
-    }
-  }
-  Gathered all;
-  const double count = kSamples * static_cast<double>(gbuffer.size());
-  for (std::size_t i = 0; i < gbuffer.size(); ++i) {
-    all.light += sums[i] / count;
-    all.variance += (squares[i] - sums[i] * sums[i] / kSamples) / count;
-  }
-  return all;
+  const RaySums guided = {16.0f, 128.0f}, others = {4.0f, 10.0f};
+  EXPECT_FLOAT_EQ(variance_of_rays(guided, others, 2u, 4u), 4.0f);
+  const RaySums none = {0.0f, 0.0f}, one = {8.0f, 64.0f};
+  EXPECT_FLOAT_EQ(variance_of_rays(none, others, 0u, 2u), 4.0f);
+  EXPECT_FLOAT_EQ(variance_of_rays(one, others, 1u, 3u), variance_of_sum(12.0f, 74.0f, 3u));
+  EXPECT_EQ(variance_of_rays(none, none, 0u, 4u), 0.0f);
 }
 
 TEST(Guide, LeavesTheLightAsItIsAndTakesNoiseAway) {
@@ -146,14 +105,15 @@ TEST(Guide, LeavesTheLightAsItIsAndTakesNoiseAway) {
   frame.width = frame.height = 24;
   FrameSettings small;
   small.width = small.height = 14;
-  GBuffer pilot;
-  trace_gbuffer(stage.world, stage.scene.cameras.at(0), small, {0, small.height}, 0, pilot);
-  GatherGuide guide;
-  const PilotView view{small.width, small.height, pilot.surfaces, pilot.hit};
-  EXPECT_GT(make_guide(stage.world, field, view, 1, guide), 16 * pilot.size());
-  const Gathered plain = gather_often(stage, field, frame, nullptr);
-  const Gathered guided = gather_often(stage, field, frame, &guide);
-  EXPECT_NEAR(guided.light, plain.light, 0.01 * plain.light);
+  const GBuffer pilot = test::seen_of(stage, small), seen = test::seen_of(stage, frame);
+  GatherGuide guide{{frame.width, frame.height, small.width, small.height}, {}, {}};
+  EXPECT_GT(make_guide(stage.world, field, {pilot.surfaces, pilot.hit}, 1, guide),
+            16 * pilot.size());
+  GatherRequest request{seen.surfaces, seen.hit, frame.width, 0, 8};
+  const test::ManyGathers plain = test::gather_often(stage, field, request, 32);
+  request.guide = &guide;
+  const test::ManyGathers guided = test::gather_often(stage, field, request, 32);
+  EXPECT_NEAR(guided.luminance, plain.luminance, 0.01 * plain.luminance);
   EXPECT_LT(guided.variance, 0.5 * plain.variance);
 }
 

@@ -98,6 +98,30 @@ TEST_F(RendererTest, RefusesSettingsOutOfRangeByName) {
   EXPECT_EQ(renderer.frames(), 1u);
 }
 
+TEST_F(RendererTest, GuidesAreThoseOfTheirPictures) {
+  const IrradianceField field = test::make_field(stage, few_probes(4));
+  const auto render = [&](Renderer& renderer, const Camera& from, const FrameSettings& settings) {
+    return renderer.render(from, settings).value().image;
+  };
+  FrameSettings guided = size_of(24, 18), unguided;
+  guided.gather_rays = 8;
+  unguided = guided;
+  unguided.guides_gathers = false;
+  FrameSettings lower = guided;
+  lower.first_row = 9, lower.rows = 9;
+  Renderer reused(stage.world, {.field = &field});
+  const Camera other = moved(camera());
+  render(reused, other, guided);
+  const auto expect_as_alone = [&](const FrameSettings& settings) {
+    Renderer alone(stage.world, {.field = &field});
+    expect_same_bits(render(reused, camera(), settings), render(alone, camera(), settings));
+  };
+  expect_as_alone(unguided);  // no guide, although there is one of the picture before
+  expect_as_alone(lower);     // rows of the same view, for which no guide was made
+  lower.seed = 2;
+  expect_as_alone(lower);
+}
+
 TEST_F(RendererTest, RefusesSourcesThatDoNotGoTogetherOrAreOutOfRange) {
   const IrradianceField field = test::make_field(stage, few_probes(2));
   const auto refused = [&](const IndirectSources& sources, const FrameSettings& settings) {

@@ -9,6 +9,7 @@
 
 #include "reference/sampler.h"
 #include "shared/random.h"
+#include "support/chi_squared.h"
 
 namespace lambent::sampling_test {
 namespace {
@@ -54,6 +55,24 @@ TEST(Sampling, CosineHemisphereHasTheMeansOfItsDensity) {
   }
   EXPECT_NEAR(cosine / kCount, 2.0 / 3.0, 0.003);
   EXPECT_NEAR(inverse_density / kCount, kPi, 1e-4);
+}
+
+TEST(Sampling, UniformConeHasItsDensityInAllRings) {
+  constexpr float kLeastCosine = 0.9f;
+  constexpr std::size_t kRings = 16, kCount = 4096;
+  RandomStream random = make_random_stream(1u, 1u, 1u);
+  std::vector<double> observed(kRings), expected(kRings);
+  // Rings between evenly spaced cosines have the same solid angle
+  const double of_ring = kTwoPi * (1.0 - kLeastCosine) / kRings;
+  for (double& count : expected) count = kCount * of_ring * pdf_uniform_cone(kLeastCosine);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const vec3 w = sample_uniform_cone(next_uniform2(random), kLeastCosine);
+    EXPECT_NEAR(length(w), 1.0f, 1e-5f);
+    EXPECT_GE(w.z, kLeastCosine);
+    const float place = (1.0f - w.z) / (1.0f - kLeastCosine);
+    ++observed[std::min(static_cast<std::size_t>(place * kRings), kRings - 1)];
+  }
+  EXPECT_LT(test::chi_squared_deviation(observed, expected), test::kMaxChiSquaredDeviation);
 }
 
 TEST(Sampling, UniformSphereHasNoPreferredDirection) {

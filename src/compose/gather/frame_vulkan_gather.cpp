@@ -61,9 +61,8 @@ void FramePassesVulkan::light_gathers(const GatherBuffers& gathers, std::uint32_
 
 void FramePassesVulkan::draw_gathers(const GatheredPixels& pixels) {
   const FrameSettings& settings = request_->settings;
-  const GuideSize size = guides_gathers(*request_)
-                             ? guide_.size(settings.width, settings.height)
-                             : GuideSize{settings.width, settings.height, 0, 0};
+  const GuideSize size =
+      guides_gathers(*request_) ? guide_.size : GuideSize{settings.width, settings.height, 0, 0};
   add("gather", [=, this, &m = memory_](Recorder& to) {
     const GatherRaysArguments drawn = {{m.points.address()},
                                        {m.surfaces.address()},

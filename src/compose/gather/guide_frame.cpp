@@ -13,7 +13,7 @@ namespace {
 // hundredth of the rays that gather light with Quality::high.
 constexpr int kPilotStep = 8;
 // Bounds of the pilot's longer side [pixels], which is never longer than the picture's. With less,
-// points see too little of what is around them; with more, memory grows (40 MB at most).
+// points see too little of what is around them; with more, memory grows (60 MB at most).
 constexpr int kLeastPilotSide = 64, kMaxPilotSide = 256;
 
 /// Settings of the pilot's picture, one sample of each pixel.
@@ -39,7 +39,8 @@ std::uint64_t guide_frame(const FrameRequest& request, GatherGuide& guide) {
   GBuffer gbuffer;
   const std::uint64_t seen =
       trace_gbuffer(request.world, request.camera, pilot, {0, pilot.height}, 0, gbuffer);
-  const PilotView view{pilot.width, pilot.height, gbuffer.surfaces, gbuffer.hit};
+  guide.size = {request.settings.width, request.settings.height, pilot.width, pilot.height};
+  const PilotView view{gbuffer.surfaces, gbuffer.hit};
   return seen + make_guide(request.world, *request.sources.field, view, pilot.seed, guide);
 }
 

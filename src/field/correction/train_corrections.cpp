@@ -72,11 +72,8 @@ void add_rays(const Training& training, const TrainingPoint& point, GatheringRay
   const Frame frame = make_frame(point.at.normal_ws);
   const vec3 origin = offset_ray_origin(point.at.position_ws, point.geometric_normal_ws);
   for (int ray = 0; ray < kTrainingRays; ++ray) {
-    gathers.rays.push_back(
-        {origin, 0.0f, training_direction(frame, point.index, training.number, ray, training.seed),
-         kInfiniteDistance, kRayGathers});
-    gathers.indices.push_back(std::size_t{point.index} * kTrainingRays +
-                              static_cast<std::size_t>(ray));
+    gathers.add(origin, training_direction(frame, point.index, training.number, ray, training.seed),
+                std::size_t{point.index} * kTrainingRays + static_cast<std::size_t>(ray));
   }
 }
 

@@ -34,9 +34,7 @@ std::vector<std::size_t> draw_secondary_rays(const HitLighting& by, const Gather
         gather_salt(by.shading.salt, depth), by.shading.seed);
     if (!drawn.traced) continue;
     parents.push_back(i);
-    following.rays.push_back(
-        {drawn.origin_ws, 0.0f, drawn.direction_ws, kInfiniteDistance, kRayGathers});
-    following.indices.push_back(before.indices[i]);
+    following.add(drawn.origin_ws, drawn.direction_ws, before.indices[i]);
   }
   return parents;
 }
@@ -100,6 +98,11 @@ ShadeHitsSettings gathering_shading(int rays, float max_albedo, std::uint32_t sa
   shading.salt = salt;
   shading.seed = seed;
   return shading;
+}
+
+void GatheringRays::add(const vec3& origin_ws, const vec3& direction_ws, std::size_t index) {
+  rays.push_back({origin_ws, 0.0f, direction_ws, kInfiniteDistance, kRayGathers});
+  indices.push_back(index);
 }
 
 std::uint64_t GatheringRays::light(const HitLighting& by, ShadeHitsScratch& scratch) {

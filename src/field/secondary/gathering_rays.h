@@ -42,6 +42,8 @@ struct GatheringRays {
   /// hit reflects none.
   std::vector<glm::vec3> arrives;
 
+  void add(const glm::vec3& origin_ws, const glm::vec3& direction_ws, std::size_t index);
+
   /// Traces the rays and finds the light at their hits. Single-threaded. Returns the number of rays
   /// traced.
   std::uint64_t light(const HitLighting& by, ShadeHitsScratch& scratch);

@@ -25,12 +25,13 @@ void main() {
   vec3 sum = vec3(0.0f);
   vec3 excess = vec3(0.0f);
   vec3 known = args.keeps_excess != 0u ? args.known.at[i] : vec3(0.0f);
-  RaySums guided = RaySums(0u, 0.0f, 0.0f);
-  RaySums others = RaySums(0u, 0.0f, 0.0f);
+  RaySums guided = RaySums(0.0f, 0.0f);
+  RaySums others = RaySums(0.0f, 0.0f);
+  uint guided_count = args.guided.at[k];
   for (uint r = 0u; r < args.rays_per_pixel; ++r) {
     uint at = k * args.rays_per_pixel + r;
     RayRecord ray = args.rays.at[at];
-    if (ray.mask == 0u) continue;  // so have all of the pixel
+    if (ray.mask == 0u) continue;
     vec3 brought =
         args.weights.at[at] *
         gathered_irradiance(above, point.geometric_normal_ws, ray.direction_ws,
@@ -39,7 +40,7 @@ void main() {
     float level = luminance(kept);
     sum += kept;
     excess += brought - kept;
-    if (r < args.guided.at[k]) {
+    if (r < guided_count) {
       add_ray(guided, level);
     } else {
       add_ray(others, level);
@@ -48,6 +49,7 @@ void main() {
   args.irradiance.at[i] = share * sum;
   if (args.keeps_excess != 0u) args.excess.at[i] = share * excess;
   if (args.rays_per_pixel > 1u) {
-    args.variance.at[i] = share * share * variance_of_rays(guided, others);
+    args.variance.at[i] =
+        share * share * variance_of_rays(guided, others, guided_count, args.rays_per_pixel);
   }
 }
