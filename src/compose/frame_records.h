@@ -75,15 +75,6 @@ struct ViewGeometryArguments {
   uint padding;
 };
 
-/// Subtracts another method's share of light from the field's, and adds that method's own result.
-struct ReplaceLightArguments {
-  Vec3Array irradiance;
-  Vec3Array subtracted_field;
-  Vec3Array added;
-  uint count;
-  uint subtracts;  ///< 1: there is light to subtract.
-};
-
 // Bits of ComposeArguments::has
 const uint kHasCoats = 1u;            ///< Coats have light from rays.
 const uint kHasTransmission = 2u;     ///< Surfaces transmit light.

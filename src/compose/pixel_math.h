@@ -119,10 +119,5 @@ LAMBENT_FN float alpha_behind(Reflectance surface, float coat_share) {
   return coat_share > 0.0f ? highlight_alpha(surface) : 0.0f;
 }
 
-/// The field's light at a pixel after another method has replaced a part of it.
-LAMBENT_FN vec3 replaced_light(vec3 irradiance, vec3 added, vec3 subtracted_field) {
-  return max(irradiance + added - subtracted_field, vec3(0.0f));
-}
-
 LAMBENT_END
 #endif

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "compose/frame_vulkan.h"
+#include "compose/rsm/replace_light.h"
 #include "compose/rsm/rsm_frame.h"
 #include "core/stopwatch.h"
 #include "raytracing/camera_rays.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "compose/frame_tasks.h"
-#include "compose/pixel_math.h"
+#include "compose/rsm/replace_light.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "raytracing/camera_rays.h"

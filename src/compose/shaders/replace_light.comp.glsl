@@ -2,8 +2,7 @@
 // Subtracts another method's share of light from the field's, and adds that method's own result.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "compose/frame_records.h"
-#include "compose/pixel_math.h"
+#include "compose/rsm/replace_light.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
