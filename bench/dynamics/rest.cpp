@@ -14,8 +14,10 @@ constexpr std::uint64_t kRestBudget = 100000;  // rays per frame
 
 /// Prints the relative standard deviation of each point's light over the frames: root mean square
 /// over the points, and the largest.
-void waver(const std::string& name, const std::string& label, int updates_before) {
-  Subject subject(name, {});
+void waver(const std::string& name, int updates_before, bool corrections) {
+  FieldSettings settings;
+  settings.corrections = corrections;
+  Subject subject(name, settings);
   const UpdateRequest request{kRestBudget, 0.0, std::nullopt};
   const std::vector<FieldQuery> points = seen_points(subject, kRestPixels);
   for (int i = 0; i < updates_before; ++i) subject.field.update(subject.world);
@@ -40,7 +42,8 @@ void waver(const std::string& name, const std::string& label, int updates_before
     total += coefficient * coefficient;
     largest = std::max(largest, coefficient);
   }
-  std::printf("| %s | %.3f %% | %.3f %% | %.0f |\n", label.c_str(),
+  std::printf("| %s, %d | %s | %.3f %% | %.3f %% | %.0f |\n", name.c_str(), updates_before,
+              corrections ? "yes" : "no",
               100.0 * std::sqrt(total / static_cast<double>(points.size())), 100.0 * largest,
               static_cast<double>(rays) / kRestFrames);
 }
@@ -50,13 +53,18 @@ void waver(const std::string& name, const std::string& label, int updates_before
 void measure_rest() {
   std::printf("### Coefficient of variation of E over %d frames of 100,000 rays, nothing moving\n",
               kRestFrames);
-  std::printf("| scene, full updates before | root mean square | largest | probe rays a frame |\n");
-  std::printf("|---|---|---|---|\n");
-  for (const int updates : {16, 100}) {
-    waver("cornell", "cornell, " + std::to_string(updates), updates);
-    waver("two-rooms", "two-rooms, " + std::to_string(updates), updates);
+  std::printf(
+      "| scene, full updates before | corrections | root mean square | largest | probe rays a "
+      "frame "
+      "|\n");
+  std::printf("|---|---|---|---|---|\n");
+  for (const bool corrections : {true, false}) {
+    for (const int updates : {16, 100}) {
+      waver("cornell", updates, corrections);
+      waver("two-rooms", updates, corrections);
+    }
+    waver("atrium", 100, corrections);
   }
-  waver("atrium", "atrium, 100", 100);
 }
 
 }  // namespace lambent::dynamics
