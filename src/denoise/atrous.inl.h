@@ -17,13 +17,8 @@
 //   Real fetch_lobe(int plane, int x, int y)    the same for LobeGuide; used where there are lobes
 // In C++ it is included in the body of a struct that has these as members.
 
+#include "denoise/edge_stopping.inl.h"
 #include "denoise/lobe_weight.inl.h"
-
-/// A pixel's position and normal.
-struct AtrousGuide {
-  Real3 position_ws;
-  Real3 normal_ws;
-};
 
 /// A pixel's light, or the weighted sums of its neighbours'.
 struct AtrousLight {
@@ -73,27 +68,12 @@ LAMBENT_REAL_FN Real filtered_luminance(AtrousPass by, AtrousLight of) {
   return rest.x * kRedLuminance + rest.y * kGreenLuminance + rest.z * kBlueLuminance;
 }
 
-/// Exponent of a neighbour's weight by its surface alone, without regard to its light.
-LAMBENT_REAL_FN Real difference_of_surfaces(AtrousPass by, AtrousGuide here, Real plane_scale,
-                                            AtrousGuide there, Real cosine) {
-  Real off_plane = dot(here.normal_ws, there.position_ws - here.position_ws) * plane_scale;
-  return by.normal_sharpness * (1.0f - cosine) + off_plane * off_plane;
-}
-
 LAMBENT_REAL_FN PixelLobe lobe_at(int x, int y) {
   PixelLobe lobe;
   lobe.mirror_ws = lobe_vector(kMirrorPlane, x, y);
   lobe.sharpness = fetch_lobe(kLobeSharpnessPlane, x, y);
   lobe.inverse_distance = fetch_lobe(kInverseHitDistancePlane, x, y);
   return lobe;
-}
-
-/// The variance that the difference of two pixels' luminance is compared with. The variance of the
-/// difference is the sum. Twice the harmonic mean is less where one pixel's light is known better,
-/// and keeps noisy light out of pixels known to be dark.
-LAMBENT_REAL_FN Real variance_between(AtrousPass by, Real a, Real b) {
-  if (by.harmonic == 0u) return a + b;
-  return 4.0f * a * b / (a + b + kLeastContrast);
 }
 
 /// The pixel's light from the weighted sums over its neighbours.
@@ -153,11 +133,8 @@ LAMBENT_REAL_FN AtrousLight filtered_pixel(AtrousPass by) {
                                         there.position_ws - here.position_ws, across_ws);
     }
     if (by.geometric == 0u) {
-      Real contrast = own_luminance - filtered_luminance(by, neighbour);
-      difference +=
-          contrast * contrast * by.contrast_scale /
-          (variance_between(by, own.spread * own.share, neighbour.spread * neighbour.share) +
-           kLeastContrast);
+      difference += difference_of_light(by, own_luminance - filtered_luminance(by, neighbour),
+                                        own.spread * own.share, neighbour.spread * neighbour.share);
     }
     Real weight = falloff(difference) * (x == 0 || y == 0 ? 0.5f : 0.25f);
     weight = zero_unless_positive(cosine, weight);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ray cones: a ray stands for all that the cone around it hits, whose width selects MIP levels.
+// Ray cones: a ray stands for all that the cone around it hits, whose width selects MIP levels
+// (scene/mip_level.h).
 // Amanatides, "Ray Tracing with Cones", SIGGRAPH 1984; Akenine-Moeller et al., "Texture Level of
 // Detail Strategies for Real-Time Ray Tracing", Ray Tracing Gems, 2019.
 #ifndef LAMBENT_RAYTRACING_RAY_CONE_H

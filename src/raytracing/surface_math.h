@@ -71,12 +71,6 @@ LAMBENT_FN mat3 cofactors(mat4 m) {
   return mat3(cross(y, z), cross(z, x), cross(x, y));
 }
 
-/// Cross section of a cone of this width over a triangle's area; 0 where there is no cone.
-LAMBENT_FN float share_of_triangle(float footprint, float double_area) {
-  if (footprint <= 0.0f || double_area <= 0.0f) return 0.0f;
-  return 2.0f * footprint * footprint / double_area;
-}
-
 /// Tangent and handedness from texture coordinates, for meshes that come without tangents, given
 /// the edges from a triangle's first vertex to the others.
 LAMBENT_FN vec4 tangent_from_uvs(vec3 edge1, vec3 edge2, vec2 uv1, vec2 uv2) {

@@ -7,6 +7,7 @@
 #ifndef LAMBENT_RAYTRACING_TRANSMISSION_MATH_H
 #define LAMBENT_RAYTRACING_TRANSMISSION_MATH_H
 
+#include "raytracing/glass/absorption.h"
 #include "raytracing/surface_math.h"
 #include "shared/sampling.h"
 
@@ -151,11 +152,6 @@ LAMBENT_FN float crossing_probability(vec3 passing, vec3 reflected) {
 LAMBENT_FN vec3 passing_share(Transmission through, Reflectance reflectance, float n_dot_v) {
   if (through.kind == kLeavesVolume) return vec3(1.0f);
   return straight_share(through.tint, reflectance, n_dot_v);
-}
-
-/// Transmittance of the volume that a ray comes from, over a distance [m].
-LAMBENT_FN vec3 volume_transmittance(Transmission through, float distance) {
-  return exp(-through.absorption * distance);
 }
 
 LAMBENT_END

@@ -40,7 +40,7 @@ glm::vec3 light_through(const World& world, Ray ray, bool crosses_all, std::uint
     if (!crosses_all && !goes_straight(through)) return glm::vec3(0.0f);
     const SeenTriangle seen{hit.instance, hit.triangle, hit.barycentrics, hit.front_face};
     share *= straight_share_of(world.scene(), seen, ray.direction) *
-             volume_transmittance(through, hit.distance);
+             volume_transmittance(through.absorption, hit.distance);
     const glm::vec3 origin = offset_ray_origin(surface.position_ws, -surface.geometric_normal_ws);
     ray.t_max -= glm::dot(origin - ray.origin, ray.direction);
     ray.origin = origin;

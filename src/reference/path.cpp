@@ -196,7 +196,7 @@ PathIntegrator::Incident PathIntegrator::sample_incident(Ray ray, PathSegment tr
         return incident;
       }
       const Surface surface = surface_at(scene_, ray, hit);
-      throughput *= volume_transmittance(surface.transmission, hit.distance);
+      throughput *= volume_transmittance(surface.transmission.absorption, hit.distance);
       (bounce == 1 ? incident.emitted : incident.other) +=
           throughput * emission_found(surface, ray, hit, traveller);
       traveller.distance += hit.distance;

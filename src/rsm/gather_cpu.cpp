@@ -4,7 +4,7 @@
 #include <cmath>
 #include "rsm/gather.h"
 
-#include "rsm/geometry_term.h"
+#include "rsm/texel_light.h"
 #include "shared/color.h"
 #include "shared/packing.h"
 #include "shared/reorient_irradiance.h"

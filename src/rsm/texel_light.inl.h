@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The light of a texel at a point (in C++ also at several points, in the lanes of a vector), in the
-// common subset of C++ and GLSL. geometry_term.h derives it. Without an include guard. The includer
+// common subset of C++ and GLSL. texel_light.h derives it. Without an include guard. The includer
 // provides
 //   Real             float, or lanes of them with the same operators: a number of the point
 //   TexelReal        float or Real: a number of the texel
@@ -22,7 +22,7 @@ struct TexelSight {
                      ///< [1/m^4]; 0 where one is behind the other's plane.
 };
 
-/// k of geometry_term.h, given the cosine between the two normals.
+/// k of texel_light.h, given the cosine between the two normals.
 LAMBENT_REAL_FN Real softening_compensation(Real cosine) {
   Real c = -cosine;
   return kSofteningCorner + c * (kSofteningLinear + c * (kSofteningSquare + c * kSofteningCube));

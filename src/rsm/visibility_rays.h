@@ -4,7 +4,7 @@
 #define LAMBENT_RSM_VISIBILITY_RAYS_H
 
 #include "raytracing/shadow_rays.h"
-#include "rsm/geometry_term.h"
+#include "rsm/texel_light.h"
 #include "rsm/records.h"
 #include "shared/color.h"
 #include "shared/rays.h"

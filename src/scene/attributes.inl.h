@@ -79,7 +79,7 @@ LAMBENT_FN int mip_level(SceneRef scene, TextureViewRef view, CornerUvs uvs, Con
                    cone_share.of_triangle);
 }
 
-/// The MIP level without rounding; see blended_level() of texture_lookup.h.
+/// The MIP level without rounding; see blended_level() of mip_level.h.
 LAMBENT_FN float blended_level(SceneRef scene, TextureViewRef view, CornerUvs uvs,
                                ConeShare cone_share) {
   TextureLevelRef base = fetch_level(scene, view, 0);

@@ -6,6 +6,7 @@
 
 #include "core/byte_decoding.h"
 #include "lambent/scene.h"
+#include "scene/mip_level.h"
 #include "scene/texture_lookup.h"
 
 namespace lambent {

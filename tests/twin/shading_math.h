@@ -10,6 +10,7 @@
 #include "scene/latitude_longitude.h"
 #include "scene/light_tree/unoccluded_math.h"
 #include "scene/punctual_light.h"
+#include "scene/mip_level.h"
 #include "scene/texture_lookup.h"
 
 LAMBENT_BEGIN

@@ -9,7 +9,7 @@
 
 #include "lambent/rsm.h"
 #include "lambent/world.h"
-#include "rsm/geometry_term.h"
+#include "rsm/texel_light.h"
 #include "shared/constants.h"
 #include "shared/random.h"
 #include "support/made_view.h"

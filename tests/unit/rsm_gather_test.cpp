@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lambent/rsm.h"
-#include "rsm/geometry_term.h"
+#include "rsm/texel_light.h"
 #include "rsm/maps/projection.h"
 #include "rsm/pattern.h"
 #include "shared/sampling.h"

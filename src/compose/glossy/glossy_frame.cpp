@@ -170,7 +170,7 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
       if (path.stage == kStageCoatBehindGlass && !is_transmissive(surface.transmission)) {
         path.stage = kStageBeyondCoat;
       }
-      path.throughput *= volume_transmittance(surface.transmission, hits[k].distance);
+      path.throughput *= volume_transmittance(surface.transmission.absorption, hits[k].distance);
       met_.hit[i] = 1;
       met_.surfaces[i] = surface;
       meet_emitter(path, surface.emission, emission_luminance(material_of(scene, hits[k].instance)),

@@ -46,7 +46,8 @@ void main() {
   if (path.stage == kStageCoatBehindGlass && !is_transmissive(surface.transmission)) {
     path.stage = kStageBeyondCoat;
   }
-  path.throughput *= volume_transmittance(surface.transmission, args.hits.at[k].distance);
+  float distance = args.hits.at[k].distance;
+  path.throughput *= volume_transmittance(surface.transmission.absorption, distance);
   meet_emitter(path, surface.emission, surface.emission_luminance, ray);
   args.coat_rays.at[i] = ray;
   float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "raytracing/glass/absorption.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/surface.h"
 #include "scene/attributes.h"
@@ -24,11 +25,10 @@ bool stops_at_glass(const Scene& scene, const SeenTriangle& seen, float distance
   if (query.kind == Query::Kind::occlusion) return false;
   if (stops_at_bends(query.ray.mask) && bends_light(scene, seen)) return true;
   query.through *= crosses ? share / passing_probability(share) : share;
-  // A volume is entered and left: the difference of the distances is the path through it
   const Material& material =
       scene.materials[scene.meshes[scene.instances[seen.instance].mesh].material];
   if (material.bounds_volume) {
-    query.optical_depth += material.absorption * (seen.from_front ? -distance : distance);
+    query.optical_depth += depth_at_boundary(material.absorption, distance, seen.from_front);
   }
   return false;
 }

@@ -2,6 +2,7 @@
 #include <cassert>
 
 #include "raytracing/embree/embree_raytracer.h"
+#include "raytracing/glass/absorption.h"
 #include "raytracing/surface_math.h"
 #include "scene/attributes.h"
 
@@ -98,7 +99,7 @@ void EmbreeRayTracer::transmittances(std::span<const Ray> rays,
     embree::occluded(world_.get(), asked, query);
     const bool stopped = query.tfar < 0.0f;
     through[i] =
-        stopped ? glm::vec3(0.0f) : asked.through * exp(-max(asked.optical_depth, glm::vec3(0.0f)));
+        stopped ? glm::vec3(0.0f) : asked.through * depth_transmittance(asked.optical_depth);
   }
 }
 

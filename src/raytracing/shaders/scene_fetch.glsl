@@ -9,6 +9,7 @@
 
 #include "raytracing/vulkan/scene_records.h"
 #include "scene/coverage.h"
+#include "scene/mip_level.h"
 #include "scene/texture_lookup.h"
 
 // One sampler for each pair of wraps: wrap of u + 3 * wrap of v. All are bilinear.

@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_tracing : require
+#include "raytracing/glass/absorption.h"
 #include "raytracing/shaders/surface_at.glsl"
 #include "raytracing/vulkan/trace_arguments.h"
 
@@ -35,9 +36,8 @@ void main() {
     return;
   }
   light.through *= light.crosses != 0u ? share / passing_probability(share) : share;
-  // A volume is entered and left: the difference of the distances is the path through it
   if (bounds_volume(material)) {
-    light.optical_depth += material.absorption * (from_front ? -gl_HitTEXT : gl_HitTEXT);
+    light.optical_depth += depth_at_boundary(material.absorption, gl_HitTEXT, from_front);
   }
   ignoreIntersectionEXT;
 }

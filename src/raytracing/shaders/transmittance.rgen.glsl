@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_tracing : require
+#include "raytracing/glass/absorption.h"
 #include "raytracing/vulkan/trace_arguments.h"
 #include "shared/rays.h"
 
@@ -26,6 +27,6 @@ void main() {
     traceRayEXT(accelerationStructureEXT(args.structure), flags, mask, 0, 0, 0, ray.origin_ws,
                 ray.t_min, ray.direction_ws, min(ray.t_max, kFarthestOfDevices), 0);
   }
-  vec3 through = light.through * exp(-max(light.optical_depth, vec3(0.0f)));
+  vec3 through = light.through * depth_transmittance(light.optical_depth);
   args.through.at[i] = light.stopped != 0u ? vec3(0.0f) : through;
 }

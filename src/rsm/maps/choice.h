@@ -4,7 +4,7 @@
 #define LAMBENT_RSM_MAPS_CHOICE_H
 
 #include "raytracing/ray_records.h"
-#include "rsm/geometry_term.h"
+#include "rsm/texel_light.h"
 #include "rsm/records.h"
 #include "shared/random.h"
 #include "shared/sampling.h"

@@ -3,7 +3,7 @@
 #ifndef LAMBENT_RSM_MAPS_MAP_TEXEL_H
 #define LAMBENT_RSM_MAPS_MAP_TEXEL_H
 
-#include "rsm/geometry_term.h"
+#include "rsm/texel_light.h"
 #include "rsm/records.h"
 #include "shared/brdf.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: Dachsbacher and Stamminger, "Reflective Shadow Maps", I3D 2005. The light from a texel
 // to a point, bounded where the two are close.
-#ifndef LAMBENT_RSM_GEOMETRY_TERM_H
-#define LAMBENT_RSM_GEOMETRY_TERM_H
+#ifndef LAMBENT_RSM_TEXEL_LIGHT_H
+#define LAMBENT_RSM_TEXEL_LIGHT_H
 
 #include "shared/constants.h"
 

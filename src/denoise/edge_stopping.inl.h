@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The edge-stopping functions of the filter, in the common subset of C++ and GLSL: how far a
+// neighbour differs from a pixel by its surface and by its light. What its lobe shows is in
+// lobe_weight.inl.h, which has falloff(), the weight that follows from the sum of the differences.
+//
+// The includer provides, besides atrous_pass.h,
+//   Real, Real3              float and vec3, or lanes of them with the same operators
+//   LAMBENT_REAL_FN          before a function
+//   Real dot(Real3, Real3)
+// In C++ it is included in the body of a struct that has these as members.
+
+/// A pixel's position and normal.
+struct AtrousGuide {
+  Real3 position_ws;
+  Real3 normal_ws;
+};
+
+/// Exponent of a neighbour's weight by its surface alone, without regard to its light.
+LAMBENT_REAL_FN Real difference_of_surfaces(AtrousPass by, AtrousGuide here, Real plane_scale,
+                                            AtrousGuide there, Real cosine) {
+  Real off_plane = dot(here.normal_ws, there.position_ws - here.position_ws) * plane_scale;
+  return by.normal_sharpness * (1.0f - cosine) + off_plane * off_plane;
+}
+
+/// The variance that the difference of two pixels' luminance is compared with. The variance of the
+/// difference is the sum. Twice the harmonic mean is less where one pixel's light is known better,
+/// and keeps noisy light out of pixels known to be dark.
+LAMBENT_REAL_FN Real variance_between(AtrousPass by, Real a, Real b) {
+  if (by.harmonic == 0u) return a + b;
+  return 4.0f * a * b / (a + b + kLeastContrast);
+}
+
+/// Exponent of a neighbour's weight by its light: the squared contrast, which is the difference of
+/// the two luminances, over its variance. `own` and `other`: the variances of the two.
+LAMBENT_REAL_FN Real difference_of_light(AtrousPass by, Real contrast, Real own, Real other) {
+  return contrast * contrast * by.contrast_scale /
+         (variance_between(by, own, other) + kLeastContrast);
+}
