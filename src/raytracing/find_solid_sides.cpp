@@ -101,6 +101,25 @@ struct Votes {
   std::vector<Sightings> instances;
 };
 
+/// The votes of places of which some are open. In a room, sightings from within decide first.
+std::vector<Votes> votes_of_open(const Scene& scene, std::span<const Places> places, bool room) {
+  std::vector<Votes> votes;
+  votes.emplace_back(scene, places, room ? Voters::enclosed : Voters::open);
+  if (room) votes.emplace_back(scene, places, Voters::exposed);
+  return votes;
+}
+
+/// Whether a hit is on a wall of a room that may be dark: on the front of a single-sided triangle
+/// whose back open space does not see. Solid matter is bounded by backs, or, where a mesh is wound
+/// the wrong way, by fronts whose backs are seen.
+bool is_wall_of_room(const Scene& scene, const Votes& votes, const Hit& hit) {
+  const Material& material =
+      scene.materials[scene.meshes[scene.instances[hit.instance].mesh].material];
+  if (!hit.front_face || material.double_sided) return false;
+  const std::vector<Sightings>& seen = votes.triangles[hit.instance];
+  return hit.triangle >= seen.size() || seen[hit.triangle].back < kMinSightings;
+}
+
 /// The sides of a triangle that bound solid matter, by the first votes with sightings of it or at
 /// least of its instance; none where there are no sightings of either. Few triangles of a wall are
 /// seen so seldom from within a room that sightings from outside would be better.
@@ -155,15 +174,18 @@ SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids
   const bool some_open =
       std::any_of(asked.begin(), asked.end(), [](const Places& some) { return some.any_open(); });
 
-  // Count sightings from open space. In a room, those from within decide first
+  // Count sightings from open space, and again if there are rooms in which no light is on
   std::vector<Votes> votes;
-  if (!some_open) {
-    votes.emplace_back(scene, asked, Voters::all);
-  } else if (room) {
-    votes.emplace_back(scene, places, Voters::enclosed);
-    votes.emplace_back(scene, places, Voters::exposed);
+  if (some_open) {
+    votes = votes_of_open(scene, places, room);
+    bool dark_rooms = false;
+    for (Places& some : places) {
+      dark_rooms |= some.open_rooms(
+          [&](const Hit& hit) { return is_wall_of_room(scene, votes.front(), hit); });
+    }
+    if (dark_rooms) votes = votes_of_open(scene, places, room);
   } else {
-    votes.emplace_back(scene, places, Voters::open);
+    votes.emplace_back(scene, asked, Voters::all);
   }
 
   SolidSides sides = no_solid_sides(scene);

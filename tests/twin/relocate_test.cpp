@@ -131,7 +131,8 @@ class Relocated {
     const uint blocked = inside_geometry(around) ? 1u : 0u;
     if (relocation.converged == 0) {
       const vec3 position = offset * spacing;
-      const vec3 better = better_position(around, position, vec3(0.0f), spacing);
+      const vec3 better = better_position(around, position, vec3(0.0f), spacing,
+                                          is_odd_probe(store_.grid(0), probe));
       const float margin = kSurfaceMargin * smallest_spacing(store_.grid(0));
       const float cost = placement_cost(position, better, margin, blocked);
       vec3 next =

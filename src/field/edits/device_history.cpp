@@ -36,7 +36,7 @@ DeviceHistory::DeviceHistory(FieldResources& field, DeviceSolver& solver, const 
   history_ratio_ = tiles("history ratios");
   direct_before_ = tiles("direct light before edits");
   direct_after_ = tiles("direct light after edits");
-  direct_sums_ = Buffer(device, 2 * sizeof(float), Memory::device, "direct light by edits");
+  light_sums_ = Buffer(device, 3 * sizeof(float), Memory::device, "light by edits");
   history_shares_ = Buffer(device, count * sizeof(float), Memory::device, "shares of history");
   changed_ = Buffer(device, count * sizeof(uint), Memory::device, "probes changed by edits");
   field.reserve_distances_before(largest);
@@ -44,7 +44,7 @@ DeviceHistory::DeviceHistory(FieldResources& field, DeviceSolver& solver, const 
 
 std::size_t DeviceHistory::bytes() const {
   return bytes_of({&light_before_, &estimate_, &history_ratio_, &direct_before_, &direct_after_,
-                   &direct_sums_, &history_shares_, &changed_});
+                   &light_sums_, &history_shares_, &changed_});
 }
 
 /// Records the computation of the direct light that a list's probes receive. Texels for which no
@@ -84,12 +84,12 @@ void DeviceHistory::record_solve(Recorder& to, const DeviceProbes& list,
                                {field_.light().address()},
                                {direct_before_.address()},
                                {direct_after_.address()},
-                               {direct_sums_.address()},
+                               {light_sums_.address()},
                                {history_ratio_.address()},
                                {history_shares_.address()},
                                list.count(),
-                               kSumDirectLight};
-  to.run(scale_light_, scale, kSumDirectLanes);
+                               kSumLight};
+  to.run(scale_light_, scale, kSumLightLanes);
   to.barrier();
   scale.step = kScaleLight;
   to.run(scale_light_, scale, static_cast<std::uint32_t>(list.count()));

@@ -43,7 +43,7 @@ class DeviceHistory {
   vulkan::Kernel gather_tiles_, history_ratio_kernel_, scale_light_, keep_unchanged_;
   // Entries of the list's probes
   vulkan::Buffer light_before_, estimate_, history_ratio_, direct_before_, direct_after_;
-  vulkan::Buffer direct_sums_, history_shares_, changed_;
+  vulkan::Buffer light_sums_, history_shares_, changed_;
 };
 
 }  // namespace lambent

@@ -40,12 +40,12 @@ struct HistoryRatioArguments {
 };
 
 // The steps of scale_light.
-const uint kSumDirectLight = 0u;  ///< One workgroup computes `direct_sums`.
+const uint kSumLight = 0u;  ///< One workgroup computes `sums`.
 /// Scales the list's light by their ratio, and reduces history ratios, one lane per probe.
 const uint kScaleLight = 1u;
 
 // The lanes of scale_light's workgroups.
-const int kSumDirectLanes = 256;
+const int kSumLightLanes = 256;
 
 /// Arguments of scale_light, which gives a solve after an edit a good start.
 struct ScaleLightArguments {
@@ -53,7 +53,8 @@ struct ScaleLightArguments {
   Vec4Array light;            ///< Of all probes.
   Vec4Array direct_before;    ///< Direct light that the list's probes received before the edit.
   Vec4Array direct_after;     ///< Direct light that the list's probes receive after the edit.
-  FloatArray direct_sums;     ///< Luminance of all texels of these: before, after.
+  FloatArray sums;            ///< Luminance of all texels: of `light`, and of direct light before
+                              ///< and after.
   Vec4Array history_ratio;    ///< Of the list.
   FloatArray history_shares;  ///< history_share() of each of the list's probes.
   int count;

@@ -4,9 +4,7 @@
 #include "field/edits/history_ratio.h"
 
 #include <algorithm>
-#include <numeric>
 
-#include "field/edits/history_ratio_math.h"
 #include "field/probes/tile_light.h"
 
 namespace lambent {
@@ -20,21 +18,22 @@ WorkingIrradiance history_ratio_of(std::span<const int> probes, const ProbeData&
   return history_ratio;
 }
 
-std::vector<float> reduce_history_ratios(std::span<const double> direct_before,
-                                         std::span<const double> direct_after,
+std::vector<float> reduce_history_ratios(std::span<const ProbeAtEdit> probes,
                                          WorkingIrradiance& history_ratio) {
-  const std::size_t probes = direct_before.size();
-  if (probes == 0) return {};
-  const auto mean = [probes](std::span<const double> light) {
-    return static_cast<float>(std::accumulate(light.begin(), light.end(), 0.0) /
-                              static_cast<double>(probes));
-  };
-  const float mean_before = mean(direct_before), mean_after = mean(direct_after);
-  std::vector<float> shares(probes);
-  const std::size_t texels = history_ratio.size() / probes;
-  for (std::size_t k = 0; k < probes; ++k) {
-    shares[k] = history_share(static_cast<float>(direct_before[k]),
-                              static_cast<float>(direct_after[k]), mean_before, mean_after);
+  if (probes.empty()) return {};
+  double held = 0.0, before = 0.0, after = 0.0;
+  for (const ProbeAtEdit& probe : probes) {
+    held += probe.held;
+    before += probe.before;
+    after += probe.after;
+  }
+  const auto count = static_cast<double>(probes.size());
+  const ProbeAtEdit mean = {static_cast<float>(held / count), static_cast<float>(before / count),
+                            static_cast<float>(after / count)};
+  std::vector<float> shares(probes.size());
+  const std::size_t texels = history_ratio.size() / probes.size();
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    shares[k] = history_share(probes[k], mean);
     for (std::size_t t = 0; t < texels; ++t) {
       vec4& ratio = history_ratio[k * texels + t];
       ratio = reduce_history_ratio(ratio, shares[k]);

@@ -27,6 +27,11 @@ const float kMaxDirectGrowth = 4.0f;
 // the mean probe's counts as their own.
 const float kReflectedShare = 0.1f;
 
+// Probes that hold less than this share of the mean probe's light are dark: their light is what
+// leaks or rounds, and its ratios are chance. Kept, a ratio of 2 of every probe of a dark room made
+// the light that an opened door lets in eight times too bright.
+const float kDarkHistory = 0.01f;
+
 // A probe whose light an edit changes by less than this fraction keeps its old light and its
 // history. It is half of the smallest visible difference.
 const float kChangedFraction = 0.005f;
@@ -44,12 +49,20 @@ LAMBENT_FN vec4 history_ratio_between(vec4 last_irradiance_estimate, vec4 held) 
   return history_ratio;
 }
 
-/// The share of a probe's history that holds after an edit, 0 to 1, by the direct light that it and
-/// the mean probe receive before and after the edit.
-LAMBENT_FN float history_share(float before, float after, float mean_before, float mean_after) {
-  float was = before + kReflectedShare * mean_before;
-  float is = after + kReflectedShare * mean_after;
-  return is > kMaxDirectGrowth * was ? kMaxDirectGrowth * was / is : 1.0f;
+/// What an edit finds of a probe, or of the mean one: sums of luminance over its texels or rays.
+struct ProbeAtEdit {
+  float held;    ///< Light that it holds before the edit.
+  float before;  ///< Direct light that it receives before the edit.
+  float after;   ///< The same after the edit.
+};
+
+/// The share of a probe's history that holds after an edit, 0 to 1.
+LAMBENT_FN float history_share(ProbeAtEdit own, ProbeAtEdit mean) {
+  float was = own.before + kReflectedShare * mean.before;
+  float is = own.after + kReflectedShare * mean.after;
+  float share = is > kMaxDirectGrowth * was ? kMaxDirectGrowth * was / is : 1.0f;
+  float dark = kDarkHistory * mean.held;
+  return own.held < dark ? share * (own.held / dark) : share;
 }
 
 LAMBENT_FN vec4 reduce_history_ratio(vec4 history_ratio, float share) {

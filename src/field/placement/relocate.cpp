@@ -96,10 +96,11 @@ class Relocation {
 
   /// Takes one step, from the hits of the fixed rays at the probe's position.
   void step(std::span<const FixedRayHit> fixed_hits, ProbeStore& store) {
+    const ProbeGrid& grid = store.grid_of(probe_);
     const vec3 next =
         Surroundings(fixed_hits)
-            .relocate(relocation_, store.probe_offset(probe_), store.grid_of(probe_).spacing,
-                      inside_geometry(fixed_hits) ? 1u : 0u);
+            .relocate(relocation_, store.probe_offset(probe_), grid.spacing,
+                      inside_geometry(fixed_hits) ? 1u : 0u, is_odd_probe(grid, probe_));
     store.set_probe_offset(probe_, next);
   }
 
@@ -193,9 +194,9 @@ bool inside_geometry(std::span<const FixedRayHit> fixed_hits) {
 }
 
 vec3 better_position(std::span<const FixedRayHit> fixed_hits, const vec3& from,
-                     const vec3& grid_position, const vec3& spacing) {
+                     const vec3& grid_position, const vec3& spacing, uint odd) {
   return Surroundings(fixed_hits)
-      .better_place(from, grid_position, spacing, inside_geometry(fixed_hits) ? 1u : 0u);
+      .better_place(from, grid_position, spacing, inside_geometry(fixed_hits) ? 1u : 0u, odd);
 }
 
 std::vector<int> relocate_probes(const StaticScene& stage, std::span<const int> probes,

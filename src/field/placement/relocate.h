@@ -57,9 +57,9 @@ bool inside_geometry(std::span<const FixedRayHit> fixed_hits);
 
 /// A better position for a probe with these hits at `from`, or `from` itself where it should stay.
 /// It is at most kMaxProbeOffset of a cell from the probe's place on the grid, `grid_position`. All
-/// arguments are in the frame of the hits.
+/// arguments are in the frame of the hits. `odd` comes from is_odd_probe().
 vec3 better_position(std::span<const FixedRayHit> fixed_hits, const vec3& from,
-                     const vec3& grid_position, const vec3& spacing);
+                     const vec3& grid_position, const vec3& spacing, uint odd);
 
 /// Relocates some probes until they have converged. Returns those that moved, in the order of
 /// `probes`; their tiles still hold light and distances of their old places. Gives the same bits on

@@ -24,18 +24,32 @@ LAMBENT_FN vec3 nearest_exit(vec3 position, vec3 grid_position, vec3 spacing, fl
 }
 
 /// How far a probe may move away from a plane: to the middle between it and an opposite plane [m].
-LAMBENT_FN float room_above(PlaneBelow below) {
+/// One that leaves no room, closer than `least_room` [m], is passed.
+LAMBENT_FN float room_above(PlaneBelow below, float least_room) {
   for (int rank = 0; rank < plane_count(); ++rank) {
     PlaneBelow plane = plane_at(rank);
     if (dot(plane.normal, below.normal) > -kMaxCornerCosine) continue;
+    if (plane.height + below.height < least_room) continue;
     return max(0.0f, 0.5f * (plane.height - below.height));
   }
   return infinity();
 }
 
+/// Whether a probe is in a sheet: there is no room between a plane below it and an opposite one.
+LAMBENT_FN bool is_in_sheet(PlaneBelow below, float least_room) {
+  for (int rank = 0; rank < plane_count(); ++rank) {
+    PlaneBelow plane = plane_at(rank);
+    if (plane.height + below.height >= least_room) return false;
+    if (dot(plane.normal, below.normal) <= -kMaxCornerCosine) return true;
+  }
+  return false;
+}
+
 /// A better position for a probe at `from`, or `from` itself where it should stay. It is at most
-/// kMaxProbeOffset of a cell from the probe's place on the grid, `grid_position`.
-LAMBENT_FN vec3 better_place(vec3 from, vec3 grid_position, vec3 spacing, uint inside_geometry) {
+/// kMaxProbeOffset of a cell from the probe's place on the grid, `grid_position`. For `odd` see
+/// side_of_sheet().
+LAMBENT_FN vec3 better_place(vec3 from, vec3 grid_position, vec3 spacing, uint inside_geometry,
+                             uint odd) {
   float smallest = min(spacing.x, min(spacing.y, spacing.z));
   float margin = kSurfaceMargin * smallest;
   if (inside_geometry != 0u) return nearest_exit(from, grid_position, spacing, margin);
@@ -48,6 +62,7 @@ LAMBENT_FN vec3 better_place(vec3 from, vec3 grid_position, vec3 spacing, uint i
   for (int rank = 0; rank < plane_count(); ++rank) {
     PlaneBelow plane = plane_at(rank);
     if (count == 3 || plane.height > smallest) break;
+    if (is_in_sheet(plane, kLeastRoom * smallest)) plane = side_of_sheet(plane, odd);
     vec3 along = plane.normal;
     bool faces_another_way = true;
     for (int a = 0; a < count; ++a) {
@@ -57,7 +72,7 @@ LAMBENT_FN vec3 better_place(vec3 from, vec3 grid_position, vec3 spacing, uint i
     float steepness = length(along);
     if (!faces_another_way || steepness < kMinSteepness) continue;
     along /= steepness;
-    float rise = min(margin - plane.height, room_above(plane));
+    float rise = min(margin - plane.height, room_above(plane, kLeastRoom * smallest));
     vec3 there = position + along * (rise / max(dot(along, plane.normal), kMinSteepness));
     if (!within_reach(there, grid_position, spacing)) continue;
     axes[count++] = along;
@@ -66,12 +81,13 @@ LAMBENT_FN vec3 better_place(vec3 from, vec3 grid_position, vec3 spacing, uint i
   return position;
 }
 
-/// Takes one step of a probe's relocation from its `offset` [cells]. Returns the next offset.
+/// Takes one step of a probe's relocation from its `offset` [cells]. Returns the next offset. `odd`
+/// comes from is_odd_probe().
 LAMBENT_FN vec3 relocate(LAMBENT_INOUT(RelocationState) relocation, vec3 offset, vec3 spacing,
-                         uint inside_geometry) {
+                         uint inside_geometry, uint odd) {
   // Work along the axes of the grid, relative to the probe's place on it
   vec3 position = offset * spacing;
-  vec3 better = better_place(position, vec3(0.0f), spacing, inside_geometry);
+  vec3 better = better_place(position, vec3(0.0f), spacing, inside_geometry, odd);
   float margin = kSurfaceMargin * min(spacing.x, min(spacing.y, spacing.z));
   float cost = placement_cost(position, better, margin, inside_geometry);
   return relocation_step(relocation, offset, better == position ? offset : better / spacing, cost);

@@ -19,6 +19,11 @@ const int kMaxRelocationSteps = 8;
 // 0.1, and 0.14 % at this one. With a larger margin, surfaces lie outside the hull of the probes.
 const float kSurfaceMargin = 0.15f;
 
+// Between two surfaces whose distance is below this fraction of the smallest spacing, there is no
+// room for a probe: they are taken as a sheet, such as a wall without thickness in which a layer of
+// probes happens to lie. The fraction is far above the rounding of hits.
+const float kLeastRoom = 1e-3f;
+
 // A probe within this fraction of the margin from its best place stays, so that it never
 // oscillates.
 const float kMarginTolerance = 0.25f;
@@ -65,6 +70,24 @@ LAMBENT_FN bool passes_below(FixedRayHit hit) {
 LAMBENT_FN PlaneBelow plane_below(FixedRayHit hit) {
   PlaneBelow plane = {hit.normal, hit.distance * -dot(hit.direction, hit.normal)};
   return plane;
+}
+
+/// Whether the coordinates of a probe have an odd sum: each of its neighbours on the grid differs.
+LAMBENT_FN uint is_odd_probe(ProbeGrid grid, int probe) {
+  ivec3 stored = stored_coords(grid, probe_coords(grid, probe));
+  return uint(stored.x + stored.y + stored.z) & 1u;
+}
+
+/// The side of a sheet to which a probe within it moves, as the plane below it. Neighbours move to
+/// different sides, so that both are lit.
+LAMBENT_FN PlaneBelow side_of_sheet(PlaneBelow sheet, uint odd) {
+  vec3 n = abs(sheet.normal);
+  float largest = n.x >= n.y && n.x >= n.z ? sheet.normal.x
+                  : n.y >= n.z             ? sheet.normal.y
+                                           : sheet.normal.z;
+  bool turned = (largest < 0.0f) != (odd != 0u);
+  PlaneBelow side = {turned ? -sheet.normal : sheet.normal, turned ? -sheet.height : sheet.height};
+  return side;
 }
 
 /// Whether a probe whose place on the grid is `grid_position` may stand at a position.

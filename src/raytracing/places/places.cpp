@@ -52,6 +52,7 @@ Places::Places(const World& world, const PlaceGrid& grid)
       grid_(grid),
       leaving_(count(), 0),
       open_(count(), 0),
+      region_(count(), 0),
       joined_(kAxes * count(), 0) {
   look_around();
   look_across();
@@ -208,7 +209,11 @@ void Places::open_regions() {
     std::size_t leaving = 0;
     for (const std::size_t place : region) leaving += leaving_[place];
     const bool open = leaving >= kMinLeaving && leaving * kRaysOfLeaving >= region.size() * kRays;
-    for (const std::size_t place : region) open_[place] = open ? 1 : 0;
+    for (const std::size_t place : region) {
+      open_[place] = open ? 1 : 0;
+      region_[place] = static_cast<std::uint32_t>(regions_);
+    }
+    ++regions_;
   }
 }
 

@@ -30,6 +30,28 @@ class Places {
   /// The share of the open places that are enclosed; 0 where none is open.
   float enclosed_share() const;
 
+  /// Opens the regions of which nearly all rays hit walls, `is_wall(hit)`: dark rooms. Returns
+  /// whether there are any.
+  template <class IsWall>
+  bool open_rooms(IsWall is_wall) {
+    std::vector<std::size_t> met(regions_, 0), walls(regions_, 0);
+    for (std::size_t i = 0; i < hits_.size(); ++i) {
+      if (hits_[i].missed() || open_[i / kRays] != 0) continue;
+      const std::uint32_t region = region_[i / kRays];
+      ++met[region];
+      walls[region] += is_wall(hits_[i]) ? 1 : 0;
+    }
+    bool any = false;
+    for (std::size_t place = 0; place < count(); ++place) {
+      const std::uint32_t region = region_[place];
+      if (met[region] == 0 || walls[region] < kLeastWalls * static_cast<float>(met[region]))
+        continue;
+      open_[place] = 1;
+      any = true;
+    }
+    return any;
+  }
+
   /// Calls `see` with all hits of the chosen places.
   template <class See>
   void for_each_sighting(Voters voters, See see) const {
@@ -47,6 +69,9 @@ class Places {
  private:
   // Rays from each place.
   static constexpr std::size_t kRays = 32;
+  // Share of a region's rays that hit walls if it is a room. The others pass through cracks, or hit
+  // things in the room that are wound the wrong way.
+  static constexpr float kLeastWalls = 0.9f;
 
   std::size_t count() const;
   std::size_t stride(int axis) const;
@@ -76,6 +101,8 @@ class Places {
   std::vector<Hit> hits_;               // kRays for each place
   std::vector<std::uint32_t> leaving_;  // number of rays that leave the scene or hit a lamp
   std::vector<std::uint8_t> open_;      // 1: open
+  std::vector<std::uint32_t> region_;   // the region of connected places to which each belongs
+  std::size_t regions_ = 0;             // their number
   std::vector<std::uint8_t> joined_;  // 1: sees the next place along an axis; kAxes for each place
 };
 

@@ -8,26 +8,32 @@
 #include "field/probes/shaders/tiles.glsl"
 #include "shared/color.h"
 
-layout(local_size_x = kSumDirectLanes) in;
+layout(local_size_x = kSumLightLanes) in;
 layout(push_constant, scalar) uniform Push {
   ScaleLightArguments args;
 };
 
-shared vec2 partial[kSumDirectLanes];  // luminance before, after
+shared vec3 partial[kSumLightLanes];  // as of `sums`
 
-/// Luminance of a texel's direct light before and after the edit.
-vec2 direct_at(int i) {
-  return vec2(luminance(args.direct_before.at[i].xyz), luminance(args.direct_after.at[i].xyz));
+/// Luminance of texel i of the list's tiles: light that it holds, and direct light before and after
+/// the edit.
+vec3 light_at(int i, int tile) {
+  int held = args.list.at[i / tile] * tile + i % tile;
+  return vec3(luminance(args.light.at[held].xyz), luminance(args.direct_before.at[i].xyz),
+              luminance(args.direct_after.at[i].xyz));
+}
+
+ProbeAtEdit probe_at_edit(vec3 sums) {
+  return ProbeAtEdit(sums.x, sums.y, sums.z);
 }
 
 /// Scales the light of the list's probe k, whose tile has so many texels.
 void scale(int k, int tile) {
-  vec2 all = vec2(args.direct_sums.at[0], args.direct_sums.at[1]);
-  float brighter = all.x > 0.0 ? all.y / all.x : 1.0;
-  vec2 own = vec2(0.0);
-  for (int t = 0; t < tile; ++t) own += direct_at(k * tile + t);
-  float probes = float(args.count);
-  float share = history_share(own.x, own.y, all.x / probes, all.y / probes);
+  vec3 all = vec3(args.sums.at[0], args.sums.at[1], args.sums.at[2]);
+  float brighter = all.y > 0.0 ? all.z / all.y : 1.0;
+  vec3 own = vec3(0.0);
+  for (int t = 0; t < tile; ++t) own += light_at(k * tile + t, tile);
+  float share = history_share(probe_at_edit(own), probe_at_edit(all / float(args.count)));
   args.history_shares.at[k] = share;
   for (int t = 0; t < tile; ++t) {
     args.light.at[args.list.at[k] * tile + t] *= brighter;
@@ -45,12 +51,13 @@ void main() {
     return;
   }
   int lane = int(gl_LocalInvocationIndex);
-  vec2 sum = vec2(0.0);
-  for (int i = lane; i < texels; i += kSumDirectLanes) sum += direct_at(i);
+  vec3 sum = vec3(0.0);
+  for (int i = lane; i < texels; i += kSumLightLanes) sum += light_at(i, tile);
   partial[lane] = sum;
   barrier();
   if (lane != 0) return;
-  for (int other = 1; other < kSumDirectLanes; ++other) sum += partial[other];
-  args.direct_sums.at[0] = sum.x;
-  args.direct_sums.at[1] = sum.y;
+  for (int other = 1; other < kSumLightLanes; ++other) sum += partial[other];
+  args.sums.at[0] = sum.x;
+  args.sums.at[1] = sum.y;
+  args.sums.at[2] = sum.z;
 }

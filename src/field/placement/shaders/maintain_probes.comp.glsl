@@ -58,7 +58,7 @@ void sort_planes(int lane) {
 }
 
 /// Takes a step of a probe's relocation. Sets the number of samples of a probe that moves to 0.
-void place(int probe, vec3 spacing, uint inside_geometry) {
+void place(int probe, ProbeGrid grid, uint inside_geometry) {
   RecordedProbe standing = args.probes.standing.at[probe];
   uint step = placing_step(standing.placed, args.placing_updates);
   if (step == kPlaceLeave) return;
@@ -66,7 +66,8 @@ void place(int probe, vec3 spacing, uint inside_geometry) {
   vec3 offset = decode_probe_offset(standing.offset);
   if (step == kPlaceFirstStep) standing.relocation = begin_relocation(offset);
   if (standing.relocation.converged != 0u) return;
-  vec3 next = relocate(standing.relocation, offset, spacing, inside_geometry);
+  vec3 next = relocate(standing.relocation, offset, grid.spacing, inside_geometry,
+                       is_odd_probe(grid, probe));
   if (step == kPlaceEnd) {
     next = standing.relocation.best;
     standing.relocation.converged = 1u;
@@ -106,5 +107,5 @@ void main() {
   if (lane != 0) return;
   uint inside_geometry = is_inside_geometry(back_faces, args.rays_per_probe);
   args.probes.states.at[probe] = inside_geometry != 0u ? kProbeOff : kProbeOn;
-  place(probe, grid.spacing, inside_geometry);
+  place(probe, grid, inside_geometry);
 }
