@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rooms in which no light is on, until one is, or a door opens; and walls in a layer of probes.
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+#include "lambent/field.h"
+#include "lambent/world.h"
+#include "support/box_scenes.h"
+
+namespace lambent::dark_rooms_test {
+namespace {
+
+using test::box_mesh;
+using test::scene_of;
+
+Light lamp_at(const glm::vec3& position_ws) {
+  Light light;
+  light.position_ws = position_ws;
+  light.intensity = glm::vec3(10.0f);
+  return light;
+}
+
+/// Irradiance of a surface at a point with this normal.
+float light_on(const IrradianceField& field, const glm::vec3& position_ws,
+               const glm::vec3& normal_ws = glm::vec3(0, 1, 0)) {
+  const FieldQuery query{position_ws, normal_ws, normal_ws};
+  glm::vec3 light(0.0f);
+  field.irradiance({&query, 1}, {&light, 1});
+  return light.y;
+}
+
+FieldSettings few_probes() {
+  FieldSettings settings;
+  settings.probe_spacing = 0.5f;
+  return settings;
+}
+
+/// A field over a scene that may be edited.
+struct Place {
+  explicit Place(Scene made) : scene(std::move(made)), world(scene), field(fresh()) { update(8); }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+
+  IrradianceField fresh() const {
+    return IrradianceField::make(few_probes(), open_bounds(world)).value();
+  }
+  void update(int times) {
+    for (int i = 0; i < times; ++i) field.update(world);
+  }
+  void apply_edits() { ASSERT_TRUE(world.update()); }
+  /// The light of a field that has always known the scene as it is.
+  float settled_light_on(const glm::vec3& position_ws) const {
+    const World now(scene);
+    IrradianceField settled = IrradianceField::make(few_probes(), open_bounds(now)).value();
+    for (int i = 0; i < 16; ++i) settled.update(now);
+    return light_on(settled, position_ws);
+  }
+
+  Scene scene;
+  World world;
+  IrradianceField field;
+};
+
+const glm::vec3 kDarkFloor(0.3f, 0.0f, 0.2f), kDarkCeiling(0.3f, 3.0f, 0.2f);
+
+/// Two storeys with a thin ceiling between them, and a lamp in the upper one.
+Scene two_storeys() {
+  Scene scene = scene_of({box_mesh({-2, 0, -2}, {2, 3, 2}, /*inwards=*/true),
+                          box_mesh({-2, 3.1f, -2}, {2, 6.1f, 2}, /*inwards=*/true)});
+  scene.lights = {lamp_at({0.5f, 4.1f, 0.3f})};
+  return scene;
+}
+
+TEST(DarkRoom, BesideALitOneStaysDark) {
+  // The probes of what counted as solid matter were off, and lookups at its edges read those behind
+  // the ceiling: 5.3 at the ceiling where the lit room's own ceiling had 1.85
+  const Place place(two_storeys());
+  EXPECT_GT(light_on(place.field, {0.3f, 3.1f, 0.2f}), 1.0f);
+  EXPECT_LT(light_on(place.field, kDarkCeiling, {0, -1, 0}), 1e-3f);
+  EXPECT_LT(light_on(place.field, kDarkFloor), 1e-3f);
+}
+
+TEST(DarkRoom, IsLitInTheUpdateAfterALampComesOn) {
+  Place place(two_storeys());
+  place.scene.lights.push_back(lamp_at({0.5f, 1.0f, 0.3f}));
+  place.apply_edits();
+  place.update(1);
+  const float settled = place.settled_light_on(kDarkFloor);
+  EXPECT_NEAR(light_on(place.field, kDarkFloor) / settled, 1.0f, 0.15f);
+  // It went on to 2 of what is right, as corrections were learned from old light
+  place.update(4);
+  EXPECT_NEAR(light_on(place.field, kDarkFloor) / settled, 1.0f, 0.1f);
+}
+
+TEST(DarkRoom, IsDarkAgainOnceItsLampIsCarriedAway) {
+  Place place(two_storeys());
+  place.scene.lights[0].position_ws = {0.5f, 1.0f, 0.3f};
+  place.apply_edits();
+  place.update(5);
+  EXPECT_LT(light_on(place.field, {0.3f, 3.1f, 0.2f}), 0.02f);
+  EXPECT_NEAR(light_on(place.field, kDarkFloor) / place.settled_light_on(kDarkFloor), 1.0f, 0.1f);
+}
+
+// The door is the last instance; moved by this, it is open.
+const glm::vec3 kToOpen(0.0f, 0.0f, 1.1f);
+const glm::vec3 kBehindDoor(4.2f, 0.0f, 0.2f);
+
+/// Two rooms, a lamp in one, and between them a wall with a door, which is shut.
+Scene rooms_with_a_door() {
+  Scene scene = scene_of(
+      {box_mesh({-2, 0, -2}, {6, 3, 2}, /*inwards=*/true), box_mesh({2, 0, -2}, {2.2f, 3, -0.5f}),
+       box_mesh({2, 0, 0.5f}, {2.2f, 3, 2}), box_mesh({2, 2, -0.5f}, {2.2f, 3, 0.5f}),
+       box_mesh({2.05f, 0.0f, -0.505f}, {2.15f, 2.005f, 0.505f})});
+  scene.lights = {lamp_at({0.5f, 2.0f, 0.3f})};
+  return scene;
+}
+
+void move_door(Place& place, const glm::vec3& by) {
+  place.scene.instances.back().world_from_object[3] += glm::vec4(by, 0.0f);
+  place.apply_edits();
+}
+
+/// Opens the door, and expects the light behind it to be right from the next update on.
+void expect_light_through_the_door(Place& place) {
+  move_door(place, kToOpen);
+  const float settled = place.settled_light_on(kBehindDoor);
+  EXPECT_GT(settled, 0.05f);
+  for (int i = 0; i < 3; ++i) {
+    place.update(1);
+    EXPECT_NEAR(light_on(place.field, kBehindDoor) / settled, 1.0f, 0.5f) << "update " << i;
+  }
+  place.update(13);
+  EXPECT_NEAR(light_on(place.field, kBehindDoor) / settled, 1.0f, 0.3f);
+}
+
+TEST(DarkRoom, IsLitThroughADoorThatOpens) {
+  for (const bool dynamic : {false, true}) {
+    SCOPED_TRACE(dynamic);
+    Scene scene = rooms_with_a_door();
+    scene.instances.back().dynamic = dynamic;
+    Place place(std::move(scene));
+    EXPECT_LT(light_on(place.field, kBehindDoor), 1e-3f);
+    expect_light_through_the_door(place);
+  }
+}
+
+TEST(DarkRoom, DoesNotFlashWhenItsDoorOpensAgain) {
+  // Its light was eight times too bright: all of its probes kept a history ratio of up to 2
+  Scene scene = rooms_with_a_door();
+  scene.instances.back().world_from_object[3] += glm::vec4(kToOpen, 0.0f);
+  Place place(std::move(scene));
+  move_door(place, -kToOpen);
+  place.update(20);
+  EXPECT_LT(light_on(place.field, kBehindDoor), 5e-3f);
+  expect_light_through_the_door(place);
+}
+
+TEST(ProbesInAPlane, LightBothSidesOfASheet) {
+  // All probes of the layer stayed in the sheet, saw nothing from there, and both sides were black
+  Mesh sheet;
+  sheet.positions = {{0, 0, -1}, {0, 2, -1}, {0, 2, 1}, {0, 0, 1}};
+  sheet.normals.assign(4, glm::vec3(1, 0, 0));
+  sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+  Scene scene = scene_of({box_mesh({-2, 0, -2}, {2, 3, 2}, /*inwards=*/true), sheet});
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].double_sided = true;
+  scene.meshes[1].material = 1;
+  scene.lights = {lamp_at({1.0f, 2.0f, 0.3f})};
+  Place place(scene);
+  place.update(24);
+  ASSERT_EQ(place.field.grids()[0].count.x % 2, 1);
+  // A sheet a little off the layer has always been right
+  for (glm::vec3& position : scene.meshes[1].positions) position.x += 0.03f;
+  Place beside(scene);
+  beside.update(24);
+  for (const float side : {-1.0f, 1.0f}) {
+    for (float y = 0.25f; y < 1.9f; y += 0.5f) {
+      const glm::vec3 normal(side, 0, 0);
+      const float light = light_on(place.field, {0, y, 0.1f}, normal);
+      const float right = light_on(beside.field, {0.03f, y, 0.1f}, normal);
+      EXPECT_NEAR(light / right, 1.0f, 0.2f) << "side " << side << ", height " << y;
+    }
+  }
+}
+
+TEST(ProbesInAPlane, LightGroundUnderASky) {
+  // A plain at a height of 0, a layer of probes at the same height: it was black
+  Mesh ground;
+  ground.positions = {{-5, 0, -5}, {-5, 0, 5}, {5, 0, 5}, {5, 0, -5}};
+  ground.normals.assign(4, glm::vec3(0, 1, 0));
+  ground.triangles = {{0, 1, 2}, {0, 2, 3}};
+  Scene scene = scene_of({ground});
+  scene.environment.radiance = glm::vec3(1.0f);
+  Place place(std::move(scene));
+  ASSERT_EQ(place.field.grids()[0].count.y % 2, 1);
+  for (float x = -3.0f; x <= 3.0f; x += 1.0f) {
+    EXPECT_NEAR(light_on(place.field, {x, 0.0f, 0.2f}), 3.1416f, 0.16f) << x;
+  }
+}
+
+}  // namespace
+}  // namespace lambent::dark_rooms_test
