@@ -24,13 +24,9 @@ const float kMinHistoryRatio = 1e-5f;
 // two apart, the limit is above what flames flicker by.
 const float kMaxDirectGrowth = 4.0f;
 // Probes that receive hardly any direct light are lit by what others reflect, so that this share of
-// the mean probe's counts as their own.
+// the mean probe's counts as their own. In a dark room it counts less, in proportion to what they
+// hold: with this share, light that an opened door let in was eight times too bright there.
 const float kReflectedShare = 0.1f;
-
-// Probes that hold less than this share of the mean probe's light are dark: their light is what
-// leaks or rounds, and its ratios are chance. Kept, a ratio of 2 of every probe of a dark room made
-// the light that an opened door lets in eight times too bright.
-const float kDarkHistory = 0.01f;
 
 // A probe whose light an edit changes by less than this fraction keeps its old light and its
 // history. It is half of the smallest visible difference.
@@ -58,11 +54,10 @@ struct ProbeAtEdit {
 
 /// The share of a probe's history that holds after an edit, 0 to 1.
 LAMBENT_FN float history_share(ProbeAtEdit own, ProbeAtEdit mean) {
-  float was = own.before + kReflectedShare * mean.before;
-  float is = own.after + kReflectedShare * mean.after;
-  float share = is > kMaxDirectGrowth * was ? kMaxDirectGrowth * was / is : 1.0f;
-  float dark = kDarkHistory * mean.held;
-  return own.held < dark ? share * (own.held / dark) : share;
+  float reflected = own.held < kReflectedShare * mean.held ? own.held / mean.held : kReflectedShare;
+  float was = own.before + reflected * mean.before;
+  float is = own.after + reflected * mean.after;
+  return is > kMaxDirectGrowth * was ? kMaxDirectGrowth * was / is : 1.0f;
 }
 
 LAMBENT_FN vec4 reduce_history_ratio(vec4 history_ratio, float share) {
