@@ -59,6 +59,7 @@ struct IrradianceField::State {
 
   /// Finds which sides of surfaces bound solid matter, unless that is known of this scene.
   void find_solid_sides(const World& world);
+  void forget_closed(std::span<const OpenPlaces> before, std::uint64_t revision);
   /// Whether one of the volumes moves with the viewer.
   bool follows_viewer() const;
   void place_all(const World& world, const std::optional<vec3>& viewer_ws,
@@ -77,6 +78,7 @@ struct IrradianceField::State {
   /// Keeps the light of a relocated probe as the start of its new average.
   void inherit_history(int probe, const World& world);
   /// Relocates probes near edited static geometry, once nothing there has been edited for a while.
+  std::vector<int> probes_where_edits_stopped();
   void relocate_edited(const World& world, UpdateStatistics& statistics);
   /// Scrolls the volumes that follow the viewer. Returns the number of recycled probes.
   int scroll_volumes(const World& world, const vec3& viewer_ws, UpdateStatistics& statistics);

@@ -158,7 +158,7 @@ bool reach_out_of_scene(const World& world, std::span<const PlaceGrid> grids) {
 }
 
 SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids,
-                            bool outside_counts) {
+                            bool outside_counts, std::span<const OpenPlaces> before) {
   const Scene& scene = world.scene();
   std::vector<Places> places;
   const Bounds bounds = world_bounds(scene), wide = widened(bounds);
@@ -169,6 +169,9 @@ SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids
   const bool room = places.front().enclosed_share() >= kMinRoomShare;
   const std::size_t of_scene = grids.empty() ? 0 : places.size();
   for (const PlaceGrid& grid : grids) places.emplace_back(world, grid);
+  for (std::size_t i = 0; i < std::min(places.size(), before.size()); ++i) {
+    places[i].keep_open(before[i]);
+  }
   // A field in which no place is open was not put into solid matter: its lamps are off
   const std::span<const Places> asked = std::span(places).subspan(of_scene);
   const bool some_open =

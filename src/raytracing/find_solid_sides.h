@@ -20,8 +20,11 @@ namespace lambent {
 ///
 /// Views of a room from outside are ignored where there are views from within, unless
 /// `outside_counts`: then the outsides of its walls are open, too.
+///
+/// `before`: the open places that were found when only lights were different; empty: none. What was
+/// open stays open.
 SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids,
-                            bool outside_counts = false);
+                            bool outside_counts = false, std::span<const OpenPlaces> before = {});
 
 /// Whether one of the grids has places clearly outside of the scene's bounds.
 bool reach_out_of_scene(const World& world, std::span<const PlaceGrid> grids);

@@ -175,6 +175,60 @@ TEST(DarkRoom, DoesNotFlashWhenItsDoorOpensAgain) {
   expect_light_through_the_door(place);
 }
 
+// Of two-sided materials nothing tells a dark room from solid matter, until light gets in. Probes
+// then find their places in one update, and light in the next.
+TEST(DarkRoomOfTwoSidedMaterial, IsLitTwoUpdatesAfterALampComesOn) {
+  Scene scene = two_storeys();
+  scene.materials[0].double_sided = true;
+  Place place(std::move(scene));
+  place.scene.lights.push_back(lamp_at({0.5f, 1.0f, 0.3f}));
+  place.apply_edits();
+  place.update(2);
+  const float settled = light_on(place.settled(), kDarkFloor);
+  EXPECT_NEAR(light_on(place.field, kDarkFloor) / settled, 1.0f, 0.15f);
+  place.update(4);
+  EXPECT_NEAR(light_on(place.field, kDarkFloor) / settled, 1.0f, 0.1f);
+  // With its lamp off again it is still a room, and no light gets in
+  place.scene.lights[1].intensity = glm::vec3(0.0f);
+  place.apply_edits();
+  place.update(2);
+  EXPECT_LT(light_on(place.field, kDarkCeiling, {0, -1, 0}), 1e-3f);
+}
+
+TEST(DarkRoomOfTwoSidedMaterial, IsLitTwoUpdatesAfterItsCeilingGlows) {
+  Scene scene = two_storeys();
+  scene.materials[0].double_sided = true;
+  scene.materials.push_back(scene.materials[0]);
+  Mesh panel;
+  panel.positions = {
+      {-0.5f, 2.9f, -0.5f}, {0.5f, 2.9f, -0.5f}, {0.5f, 2.9f, 0.5f}, {-0.5f, 2.9f, 0.5f}};
+  panel.normals.assign(4, glm::vec3(0, -1, 0));
+  panel.triangles = {{0, 1, 2}, {0, 2, 3}};
+  panel.material = 1;
+  scene.meshes.push_back(panel);
+  scene.instances.emplace_back().mesh = 2;
+  Place place(std::move(scene));
+  place.scene.materials[1].emission = glm::vec3(10.0f);
+  place.apply_edits();
+  place.update(2);
+  EXPECT_NEAR(light_on(place.field, kDarkFloor) / light_on(place.settled(), kDarkFloor), 1.0f,
+              0.2f);
+}
+
+TEST(DarkRoomOfTwoSidedMaterial, IsLitThroughADoorThatOpens) {
+  for (const bool dynamic : {false, true}) {
+    SCOPED_TRACE(dynamic);
+    Scene scene = rooms_with_a_door();
+    scene.materials[0].double_sided = true;
+    scene.instances.back().dynamic = dynamic;
+    Place place(std::move(scene));
+    move_door(place, kToOpen);
+    place.update(2);
+    const float settled = light_behind_door(place.settled());
+    EXPECT_NEAR(light_behind_door(place.field) / settled, 1.0f, 0.25f);
+  }
+}
+
 TEST(ProbesInAPlane, LightBothSidesOfASheet) {
   // All probes of the layer stayed in the sheet, saw nothing from there, and both sides were black
   Mesh sheet;

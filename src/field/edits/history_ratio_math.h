@@ -66,9 +66,9 @@ LAMBENT_FN vec4 reduce_history_ratio(vec4 history_ratio, float share) {
 
 /// The number of samples that an average counts as after an edit changed its light. `likeness` is
 /// the similarity, as of likeness_of(), of the light after the edit to the light before it, times
-/// the history_share().
+/// the history_share(). Averages that start anew stay so.
 LAMBENT_FN float samples_after_edit(float samples, float likeness) {
-  return max(samples * likeness * likeness, 1.0f);
+  return max(samples * likeness * likeness, min(samples, 1.0f));
 }
 
 LAMBENT_END

@@ -11,6 +11,8 @@
 #include "lambent/world.h"
 #include "raytracing/boxes.h"
 #include "raytracing/find_solid_sides.h"
+#include "raytracing/places/places.h"
+#include "raytracing/places/reach_places.h"
 #include "raytracing/world_access.h"
 
 namespace lambent {
@@ -28,45 +30,87 @@ constexpr int kRestUpdates = 8;
 constexpr float kFar = 1e15f;
 const Bounds kEverywhere{vec3(-kFar), vec3(kFar)};
 
-/// Whether a change puts a light or an emissive surface inside what counts as solid matter.
+/// Whether a change makes a light or an emissive surface shine in what counts as solid matter.
 bool shines_in_the_dark(const World& world, std::span<const WorldChanges> changes,
                         const SolidSides& sides) {
+  std::vector<vec3> points;
+  bool emission = false;
   for (const WorldChanges& change : changes) {
     for (const WorldChanges::LightChange& light : change.lights) {
-      if (light.after && light.after->type != Light::Type::directional &&
-          !sides.is_open(light.after->position_ws)) {
-        return true;
+      if (light.after && light.after->type != Light::Type::directional) {
+        points.push_back(light.after->position_ws);
       }
     }
-    if (!change.emission) continue;
-    const Scene& scene = world.scene();
-    for (int i = 0; i < static_cast<int>(scene.instances.size()); ++i) {
-      const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
-      if (scene.materials[mesh.material].emission == vec3(0.0f)) continue;
-      const Bounds box = world.instance_bounds(i);
-      if (!box.empty() && !sides.is_open(0.5f * (box.min + box.max))) return true;
-    }
+    emission |= change.emission;
   }
-  return false;
+  if (emission) {
+    const std::vector<vec3> lit = points_lit_by_emitters(world);
+    points.insert(points.end(), lit.begin(), lit.end());
+  }
+  return !points.empty() && lights_closed_places(world, sides.open_space, points);
+}
+
+/// Whether a change opens a way into what counts as solid matter.
+bool opens_the_dark(const World& world, std::span<const WorldChanges> changes, SolidSides& sides) {
+  std::vector<Bounds> moved;
+  for (const WorldChanges& change : changes) {
+    moved.insert(moved.end(), change.moved.begin(), change.moved.end());
+  }
+  return !moved.empty() && reach_closed_places(world, moved, sides.open_space);
+}
+
+/// Whether two grids have the same places.
+bool is_same(const PlaceGrid& a, const PlaceGrid& b) {
+  return a.origin_ws == b.origin_ws && a.axes == b.axes && a.spacing == b.spacing &&
+         a.count == b.count;
 }
 
 }  // namespace
+
+/// Forgets the light of probes at places that were closed and are open now: it is that of the dark.
+void IrradianceField::State::forget_closed(std::span<const OpenPlaces> before,
+                                           std::uint64_t revision) {
+  // The last grids of places are those of the volumes
+  const std::vector<OpenPlaces>& now = data.solid_sides.open_space;
+  const std::size_t volumes_there = data.store.grids().size();
+  if (before.size() != now.size() || now.size() < volumes_there) return;
+  std::vector<float> kept(statuses.size(), 1.0f);
+  for (int probe = 0; probe < data.store.probes(); ++probe) {
+    const ProbeGrid& grid = data.store.grid_of(probe);
+    const std::size_t places = now.size() - volumes_there + data.store.volume_of(probe);
+    if (!is_same(before[places].grid, now[places].grid)) continue;
+    const ivec3 at = probe_coords(grid, probe);
+    const std::size_t place =
+        (static_cast<std::size_t>(at.z) * grid.count.y + at.y) * grid.count.x + at.x;
+    if (before[places].open[place] != 0 || now[places].open[place] == 0) continue;
+    reset_history(probe, revision, statuses, scheduling.scheduler);
+    kept[probe] = 0.0f;
+  }
+  backend->forget_corrections(kept);
+}
 
 void IrradianceField::State::find_solid_sides(const World& world) {
   const auto changes = world.changes_since(placement.solid_revision);
   placement.solid_revision = world.revision();
   const bool made = data.solid_sides.fits(world.scene());
-  if (made && changes && !shines_in_the_dark(world, *changes, data.solid_sides)) return;
-  const std::vector<std::uint32_t> before = std::move(data.solid_sides.words);
+  if (made && changes && !shines_in_the_dark(world, *changes, data.solid_sides) &&
+      !opens_the_dark(world, *changes, data.solid_sides)) {
+    return;
+  }
+  SolidSides before = std::move(data.solid_sides);
   const std::vector<PlaceGrid> grids = place_grids(data.store);
   // A volume that extends out of a room is meant to light its outside, too. Volumes that follow the
   // viewer always extend out of the scene, which means nothing
   const bool outside_counts = !follows_viewer() && reach_out_of_scene(world, grids);
-  data.solid_sides = lambent::find_solid_sides(world, grids, outside_counts);
+  const bool still = changes && std::all_of(changes->begin(), changes->end(),
+                                            [](const WorldChanges& c) { return c.moved.empty(); });
+  data.solid_sides = lambent::find_solid_sides(
+      world, grids, outside_counts,
+      still ? std::span<const OpenPlaces>(before.open_space) : std::span<const OpenPlaces>());
   backend->push_solid_sides();
-  // A dark room had counted as solid matter: place all probes again
-  if (made && data.solid_sides.words != before) {
-    placement.edited_places = {{kEverywhere, updates - kRestUpdates}};
+  // Where a dark room had counted as solid matter, all probes are placed again
+  if (made && data.solid_sides.words != before.words) {
+    placement.open_before = std::move(before.open_space);
   }
 }
 
@@ -132,11 +176,20 @@ void IrradianceField::State::relocate_edited(const World& world, UpdateStatistic
     }
   }
 
-  // Find the probes near places where edits have stopped
+  const std::vector<int> near = placement.open_before ? all_probes() : probes_where_edits_stopped();
+  const std::vector<int> moved = near.empty() ? std::vector<int>() : place_probes(world, near);
+  if (!moved.empty()) initialize_relocated(world, moved, statistics);
+  for (const int probe : moved) inherit_history(probe, world);
+  if (placement.open_before) forget_closed(*placement.open_before, world.revision());
+  placement.open_before.reset();
+}
+
+/// The probes near places where edits have stopped, which are edited places no longer.
+std::vector<int> IrradianceField::State::probes_where_edits_stopped() {
   const auto at_rest =
       std::partition(placement.edited_places.begin(), placement.edited_places.end(),
                      [&](const EditedPlace& p) { return updates - p.update < kRestUpdates; });
-  if (at_rest == placement.edited_places.end()) return;
+  if (at_rest == placement.edited_places.end()) return {};
   std::vector<int> near;
   for (int probe = 0; probe < data.store.probes(); ++probe) {
     const vec3 grid_position = data.store.probe_grid_position_ws(probe);
@@ -147,10 +200,7 @@ void IrradianceField::State::relocate_edited(const World& world, UpdateStatistic
     }
   }
   placement.edited_places.erase(at_rest, placement.edited_places.end());
-  const std::vector<int> moved = place_probes(world, near);
-  if (moved.empty()) return;
-  initialize_relocated(world, moved, statistics);
-  for (const int probe : moved) inherit_history(probe, world);
+  return near;
 }
 
 /// Keeps the light of a relocated probe as the start of its new average. It counts as many samples

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "field/probe_data.h"
 #include "field/schedule/schedule.h"
 #include "lambent/world.h"
+#include "raytracing/solid_sides.h"
 
 namespace lambent {
 
@@ -24,6 +26,8 @@ struct PlacementState {
   std::vector<EditedPlace> edited_places = {};
   std::uint64_t solid_revision = 0;   ///< Revision that ProbeData::solid_sides are up to date with.
   std::uint64_t placed_revision = 0;  ///< The revision that edited_places are up to date with.
+  /// Where what is solid differs since probes were placed: the places that were open before.
+  std::optional<std::vector<OpenPlaces>> open_before = {};
   bool classified = false;  ///< The classification inputs have not changed since classify().
   std::vector<Bounds> moved_to = {};  ///< Bounds of the dynamic instances at the last classify().
 };

@@ -37,15 +37,14 @@ constexpr float kHalfway = 0.5f;
 // Seed of their random numbers.
 constexpr std::uint32_t kEmitterSeed = 5;
 
-/// A ray from a place to a point; of length 0 where both are the same.
+}  // namespace
+
 Ray ray_between(const vec3& place_ws, const vec3& point_ws) {
   const vec3 way = point_ws - place_ws;
   const float distance = length(way);
   const vec3 direction = distance > 0.0f ? way / distance : vec3(0, 1, 0);
   return {place_ws, 0.0f, direction, distance, kRayOfProbe};
 }
-
-}  // namespace
 
 Places::Places(const World& world, const PlaceGrid& grid)
     : world_(world),
@@ -59,6 +58,18 @@ Places::Places(const World& world, const PlaceGrid& grid)
   mark_lights();
   mark_emitters();
   open_regions();
+}
+
+void Places::keep_open(const OpenPlaces& before) {
+  if (before.open.size() != count()) return;
+  std::vector<std::size_t> all(regions_, 0), open(regions_, 0);
+  for (std::size_t place = 0; place < count(); ++place) {
+    ++all[region_[place]];
+    open[region_[place]] += before.open[place];
+  }
+  for (std::size_t place = 0; place < count(); ++place) {
+    if (2 * open[region_[place]] > all[region_[place]]) open_[place] = 1;
+  }
 }
 
 bool Places::any_open() const {
@@ -171,33 +182,7 @@ void Places::mark_lights() {
 }
 
 void Places::mark_emitters() {
-  const EmissiveTriangles& emissive = emissive_of(world_);
-  if (emissive.empty()) return;
-  std::vector<Ray> rays;
-  for (uint i = 0; i < kEmitterPoints; ++i) {
-    RandomStream random = make_random_stream(i, 0u, kEmitterSeed);
-    const EmitterPick pick =
-        emissive.pick((static_cast<float>(i) + next_uniform(random)) / kEmitterPoints);
-    const EmitterRecord& emitter = emissive.entries()[pick.emitter];
-    const vec2 at = sample_uniform_triangle(next_uniform2(random));
-    const vec3 position_ws = emitter.corner_ws + at.x * emitter.edge1_ws + at.y * emitter.edge2_ws;
-    const vec3 front = triangle_normal(emitter.edge1_ws, emitter.edge2_ws);
-    for (int ray = 0; ray < 2 * kEmitterRays; ++ray) {
-      const vec3 side = ray < kEmitterRays ? front : -front;
-      const vec3 direction =
-          to_world(make_frame(side), sample_cosine_hemisphere(next_uniform2(random)));
-      rays.push_back(
-          {offset_ray_origin(position_ws, side), 0.0f, direction, kInfiniteDistance, kRayOfProbe});
-    }
-  }
-  std::vector<Hit> hits(rays.size());
-  tracer_of(world_).closest_hits(rays, hits);
-  std::vector<vec3> points;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (hits[i].missed()) continue;
-    points.push_back(rays[i].origin + kHalfway * hits[i].distance * rays[i].direction);
-  }
-  mark_around(points, 1);
+  mark_around(points_lit_by_emitters(world_), 1);
 }
 
 void Places::open_regions() {
@@ -236,6 +221,61 @@ void Places::find_region(std::size_t first, std::vector<std::uint8_t>& visited,
       if (joined_[before * kAxes + axis] != 0) visit(before);
     }
   }
+}
+
+std::vector<vec3> points_lit_by_emitters(const World& world) {
+  const EmissiveTriangles& emissive = emissive_of(world);
+  if (emissive.empty()) return {};
+  std::vector<Ray> rays;
+  for (uint i = 0; i < kEmitterPoints; ++i) {
+    RandomStream random = make_random_stream(i, 0u, kEmitterSeed);
+    const EmitterPick pick =
+        emissive.pick((static_cast<float>(i) + next_uniform(random)) / kEmitterPoints);
+    const EmitterRecord& emitter = emissive.entries()[pick.emitter];
+    const vec2 at = sample_uniform_triangle(next_uniform2(random));
+    const vec3 position_ws = emitter.corner_ws + at.x * emitter.edge1_ws + at.y * emitter.edge2_ws;
+    const vec3 front = triangle_normal(emitter.edge1_ws, emitter.edge2_ws);
+    for (int ray = 0; ray < 2 * kEmitterRays; ++ray) {
+      const vec3 side = ray < kEmitterRays ? front : -front;
+      const vec3 direction =
+          to_world(make_frame(side), sample_cosine_hemisphere(next_uniform2(random)));
+      rays.push_back(
+          {offset_ray_origin(position_ws, side), 0.0f, direction, kInfiniteDistance, kRayOfProbe});
+    }
+  }
+  std::vector<Hit> hits(rays.size());
+  tracer_of(world).closest_hits(rays, hits);
+  std::vector<vec3> points;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (hits[i].missed()) continue;
+    points.push_back(rays[i].origin + kHalfway * hits[i].distance * rays[i].direction);
+  }
+  return points;
+}
+
+bool lights_closed_places(const World& world, std::span<const OpenPlaces> open_space,
+                          std::span<const vec3> points_ws) {
+  std::vector<Ray> ways;
+  std::vector<std::uint8_t> open;
+  for (const OpenPlaces& places : open_space) {
+    for (const vec3& point : points_ws) {
+      for (const std::size_t place : places.grid.places_around(point)) {
+        ways.push_back(ray_between(places.grid.position_ws(places.grid.coords(place)), point));
+        open.push_back(places.open[place]);
+      }
+    }
+  }
+  std::vector<std::uint8_t> occluded(ways.size());
+  tracer_of(world).occlusions(ways, occluded);
+  constexpr std::size_t kAround = 8;
+  for (std::size_t first = 0; first < ways.size(); first += kAround) {
+    bool sees_open = false, sees_closed = false;
+    for (std::size_t i = first; i < first + kAround; ++i) {
+      if (occluded[i] == 0) (open[i] != 0 ? sees_open : sees_closed) = true;
+    }
+    if (sees_closed && !sees_open) return true;
+  }
+  return false;
 }
 
 std::vector<std::uint8_t> see_open_places(const World& world,

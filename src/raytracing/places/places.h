@@ -30,6 +30,9 @@ class Places {
   /// The share of the open places that are enclosed; 0 where none is open.
   float enclosed_share() const;
 
+  /// Opens the regions most of which were open before, with the same scene but for its lights: a
+  /// room whose lamp is off is still a room.
+  void keep_open(const OpenPlaces& before);
   /// Opens the regions of which nearly all rays hit walls, `is_wall(hit)`: dark rooms. Returns
   /// whether there are any.
   template <class IsWall>
@@ -87,7 +90,7 @@ class Places {
   void mark_around(std::span<const vec3> points_ws, std::uint32_t rays);
   /// Marks the places around point and spot lights.
   void mark_lights();
-  /// Marks places where emissive surfaces shine. Small lamps in shades are hit by none of the
+  /// Marks the places around points_lit_by_emitters(). Small lamps in shades are hit by none of the
   /// places' rays.
   void mark_emitters();
   /// Opens the regions of connected places that enough rays leave.
@@ -105,6 +108,17 @@ class Places {
   std::size_t regions_ = 0;             // their number
   std::vector<std::uint8_t> joined_;  // 1: sees the next place along an axis; kAxes for each place
 };
+
+/// A ray from a place to a point; of length 0 where both are the same.
+Ray ray_between(const vec3& place_ws, const vec3& point_ws);
+
+/// Points in the light of emissive surfaces, in front of some that are chosen by their power.
+std::vector<vec3> points_lit_by_emitters(const World& world);
+
+/// Whether one of some points, at which lights shine, is in a closed region: of the places around
+/// it, it sees closed ones alone.
+bool lights_closed_places(const World& world, std::span<const OpenPlaces> open_space,
+                          std::span<const vec3> points_ws);
 
 /// For each point, 1 where it sees one of the open places around it, so that light can reach it.
 std::vector<std::uint8_t> see_open_places(const World& world,
