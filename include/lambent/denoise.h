@@ -26,14 +26,14 @@ struct DenoiseLobes {
 /// The surfaces that the pixels of a picture show, row after row from the top. Spans have width *
 /// height elements.
 struct DenoiseView {
-  int width = 0;                            ///< Pixels, 1 to 16384.
-  int height = 0;                           ///< Pixels, 1 to 16384.
-  std::span<const glm::vec3> positions_ws;  ///< [m]
+  int width = 0;                                 ///< Pixels, 1 to 16384.
+  int height = 0;                                ///< Pixels, 1 to 16384.
+  std::span<const glm::vec3> positions_ws = {};  ///< [m]
   /// Normals that tell surfaces apart: geometric normals for light from the whole hemisphere, since
   /// NoisyLight::base holds the detail of normal maps; shading normals for light of emitters. Unit
   /// length; 0 where the pixel shows no surface, and its light is not changed.
-  std::span<const glm::vec3> normals_ws;
-  std::span<const float> depths;  ///< Distance along the axis of view [m], > 0 where a surface is.
+  std::span<const glm::vec3> normals_ws = {};
+  std::span<const float> depths = {};  ///< Along the axis of view [m], > 0 where a surface is.
   /// Lobes about the shading normals, for reflected light; empty otherwise.
   DenoiseLobes lobes = {};
 };
@@ -45,10 +45,10 @@ struct NoisyLight {
   /// An estimate of the same light without noise, such as the irradiance field's lookup. Only the
   /// difference from it is filtered, and the estimate is added back with its detail. Empty: there
   /// is none.
-  std::span<const glm::vec3> base;
+  std::span<const glm::vec3> base = {};
   /// Variance of the light's luminance, from the samples of each pixel. Empty: it is estimated from
   /// neighbouring pixels, which mistakes edges of light for noise.
-  std::span<const float> variance;
+  std::span<const float> variance = {};
   /// The noise-free quantity by which `light` was divided, such as the unoccluded light; >= 0.
   /// Neighbours with lower levels count less in proportion. Empty: it was not divided. Not together
   /// with `base`. With lobes, both must be empty.

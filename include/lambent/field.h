@@ -58,9 +58,10 @@ struct FieldSettings {
   /// scroll with UpdateRequest::viewer_ws; coarse ones are updated less often. `volume` must be
   /// empty.
   int cascades = 0;
-  /// Additional volumes, in which light is finer; at most 64 with the others. Each counts within
+  /// Additional volumes, in which light is finer, such as those of Scene::volumes; at most 64 with
+  /// the others. Each counts within
   /// its box and a cell around it. The cost is in proportion to its probes.
-  std::vector<ProbeVolume> volumes;
+  std::vector<ProbeVolume> volumes = {};
 
   /// Rays a probe traces in an update, 16 to 4096. Cost is in proportion; noise falls with the
   /// square root.
@@ -160,7 +161,8 @@ struct UpdateRequest {
   /// settled ones are not traced.
   std::uint64_t ray_budget = 0;
   /// Wall-clock time to take [ms]; no bound where it is not above 0. The field learns how many rays
-  /// that allows; the smaller of both bounds holds.
+  /// that allows; the smaller of both bounds holds. Placing probes, in the first update and after
+  /// edits of static geometry, takes the time that it needs.
   double time_budget_ms = 0.0;
   /// Where the camera is [m]: of probes equally unsettled, near ones go first, and cascades follow.
   /// Numbers that are not finite count as none.
@@ -237,10 +239,10 @@ class IrradianceField {
 
   /// Indirect irradiance [W/m^2] at each query: light that bounced, and light from the sky; not
   /// what lights and emissive surfaces send straight. Near surfaces it follows edits within the
-  /// update that applies them; in open air, within eight. Both spans have the same length. Queries
-  /// outside all volumes are answered by the nearest probes of the last. Runs on all cores.
-  /// `world` is what FieldSettings::visibility traces rays in. Visibility is by distances where it
-  /// is null, or not on the device that holds the field.
+  /// update that applies them; in open air, within eight. Of spans of different lengths the rest
+  /// of the longer one is left alone. Queries outside all volumes are answered by the nearest
+  /// probes of the last. Runs on all cores. `world` is what FieldSettings::visibility traces rays
+  /// in. Visibility is by distances where it is null, or not on the device that holds the field.
   void irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> result,
                   const World* world = nullptr) const;
 

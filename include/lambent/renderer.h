@@ -123,7 +123,7 @@ FrameSettings quality_settings(Quality quality);
 Expected<void> check(const FrameSettings& settings);
 
 struct RenderedFrame {
-  /// Linear radiance and its parts, see docs/overview.md: "" (the whole), direct, indirect,
+  /// Linear radiance and its parts, see docs/cli.md, "Layers": "" (the whole), direct, indirect,
   /// irradiance, glossy, transmission, emission, fog, albedo, normal, position, depth, and motion
   /// where it was asked for. As high as the rows that were rendered.
   LayeredImage image;
@@ -154,6 +154,8 @@ class Renderer {
   /// they may be updated between pictures. Without sources, pictures have direct light and emission
   /// alone.
   explicit Renderer(const World& world, const IndirectSources& sources = {});
+  /// A temporary world would not outlive the renderer.
+  explicit Renderer(const World&& world, const IndirectSources& sources = {}) = delete;
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;

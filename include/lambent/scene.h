@@ -202,7 +202,7 @@ struct ProbeVolume {
   std::string name;            ///< For display and error messages; may be empty.
   glm::vec3 centre{0.0f};      ///< [m]
   glm::vec3 size{1.0f};        ///< Extent along its axes [m], >= 0.
-  glm::mat3 axes{1.0f};        ///< Columns: its axes in world space, unit and orthogonal.
+  glm::mat3 axes{1.0f};        ///< Columns: its axes in world space, a rotation.
   glm::ivec3 probe_count{0};   ///< Along its axes, each >= 2; or all 0: from the spacing.
   float probe_spacing = 0.0f;  ///< [m], > 0; 0: chosen for about 512 probes.
   int priority = 0;            ///< Of overlapping volumes, the highest is used first.
@@ -234,7 +234,7 @@ struct Scene {
   Environment environment;
   std::vector<Animation> animations;  ///< The scene is in its rest pose until `animate`.
   Rig rig;                            ///< What animations move.
-  std::vector<ProbeVolume> volumes;   ///< Where the scene's author wants finer light.
+  std::vector<ProbeVolume> volumes;   ///< Where the author wants finer light; for FieldSettings.
   std::vector<FogVolume> fog;         ///< At most kMaxFogVolumes. Edits affect the next frame.
   SceneSource source;                 ///< Not used for rendering.
 };

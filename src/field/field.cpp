@@ -17,6 +17,11 @@ Expected<void> check_settings(const FieldSettings& s) {
   };
   if (outside(s.rays_per_probe, 16, 4096)) return fail("", "rays", "must be 16 to 4096 a probe");
   if (outside(s.hysteresis, 0.0f, 0.999f)) return fail("", "hysteresis", "must be 0 to 0.999");
+  if (s.irradiance_format > IrradianceFormat::float32 ||
+      s.distance_format > DistanceFormat::rg32f) {
+    return fail("", "format", "is none that there is");
+  }
+  if (s.visibility > Visibility::exact) return fail("", "visibility", "is none that there is");
   // In an odd tile, a fetch along the x or y axis reads texels on one side of the axis only
   if (outside(s.irradiance_texels, 2, 16) || s.irradiance_texels % 2 != 0) {
     return fail("", "irradiance texels", "must be even, 2 to 16");
@@ -82,8 +87,9 @@ void IrradianceField::reset() {
 
 void IrradianceField::irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> result,
                                  const World* world) const {
-  assert(queries.size() == result.size());
-  state_->backend->irradiance(queries, world, CorrectionUse::smooth, result);
+  const std::size_t count = std::min(queries.size(), result.size());
+  state_->backend->irradiance(queries.first(count), world, CorrectionUse::smooth,
+                              result.first(count));
 }
 
 std::span<const FieldGrid> IrradianceField::grids() const {

@@ -62,7 +62,7 @@ struct IrradianceField::State {
   void forget_closed(std::span<const OpenPlaces> before, std::uint64_t revision);
   /// Whether one of the volumes moves with the viewer.
   bool follows_viewer() const;
-  void place_all(const World& world, const std::optional<vec3>& viewer_ws,
+  bool place_all(const World& world, const std::optional<vec3>& viewer_ws,
                  UpdateStatistics& statistics);
   /// Relocates some probes, starting from their places on the grid, and updates their
   /// classification inputs. Resets and returns those that moved.
@@ -79,7 +79,7 @@ struct IrradianceField::State {
   void inherit_history(int probe, const World& world);
   /// Relocates probes near edited static geometry, once nothing there has been edited for a while.
   std::vector<int> probes_where_edits_stopped();
-  void relocate_edited(const World& world, UpdateStatistics& statistics);
+  bool relocate_edited(const World& world, UpdateStatistics& statistics);
   /// Scrolls the volumes that follow the viewer. Returns the number of recycled probes.
   int scroll_volumes(const World& world, const vec3& viewer_ws, UpdateStatistics& statistics);
   /// For hybrid visibility, finds which probes of the cells around the given ones are visible to

@@ -267,6 +267,17 @@ TEST(GltfNodes, ProbeVolumesStandWhereTheirNodesDo) {
   EXPECT_TRUE(loaded->source.warnings.empty());
 }
 
+TEST(GltfNodes, ProbeVolumesOfMirroredNodesHaveAxesThatAreARotation) {
+  GltfBuilder builder;
+  builder.show(builder.triangle());
+  builder.show_node(
+      {{"scale", {-2, 1, 1}}, {"extras", {{"lambent_probe_volume", {{"size", {4, 3, 2}}}}}}});
+  const Expected<Scene> loaded = builder.load();
+  ASSERT_TRUE(loaded) << error_of(loaded);
+  expect_near(loaded->volumes.at(0).size, {8, 3, 2});
+  EXPECT_NEAR(glm::determinant(loaded->volumes[0].axes), 1.0f, 1e-6f);
+}
+
 TEST(GltfNodes, ProbeVolumesThatMakeNoSenseAreLeftOut) {
   using nlohmann::json;
   for (const json& volume :

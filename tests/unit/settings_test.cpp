@@ -50,6 +50,27 @@ TEST(FieldSettings, OutOfRangeAreRefusedByName) {
   EXPECT_EQ(refused_of_field([](Field& s) { s.emissive_samples = 65; }), "emissive samples");
   EXPECT_EQ(refused_of_field([](Field& s) { s.texture_lod_bias = kNan; }), "texture LOD bias");
   EXPECT_EQ(refused_of_field([](Field& s) { s.cascades = 17; }), "cascades");
+  EXPECT_EQ(refused_of_field([](Field& s) { s.visibility = Visibility(7); }), "visibility");
+  EXPECT_EQ(refused_of_field([](Field& s) { s.irradiance_format = IrradianceFormat(9); }),
+            "format");
+  EXPECT_EQ(refused_of_field([](Field& s) { s.distance_format = DistanceFormat(2); }), "format");
+  // Unit and orthogonal, but left-handed
+  const auto mirror = [](Field& s) { s.volumes.emplace_back().axes[0] *= -1.0f; };
+  EXPECT_NE(refused_of_field(mirror), "");
+}
+
+TEST(FieldIrradiance, AnswersAsManyQueriesAsThereIsRoomFor) {
+  const test::Stage stage("cornell");
+  const IrradianceField field = test::make_field(stage, {.probe_count = glm::ivec3(3)});
+  const std::vector<FieldQuery> queries(100, {glm::vec3(0.5f), {0, 1, 0}, {0, 1, 0}});
+  std::vector<glm::vec3> light(10, glm::vec3(-1.0f));
+  field.irradiance(queries, std::span(light).first(4));
+  EXPECT_GE(light[3].x, 0.0f);
+  EXPECT_EQ(light[4], glm::vec3(-1.0f));
+  field.irradiance(std::span(queries).first(6), light);
+  EXPECT_GE(light[5].x, 0.0f);
+  EXPECT_EQ(light[6], glm::vec3(-1.0f));
+  field.irradiance(queries, {});
 }
 
 TEST(FirstViewSettings, OutOfRangeAreRefusedByName) {

@@ -24,7 +24,6 @@
 
 #include "core/pass_times.h"
 #include "field/edits/history_ratio.h"
-#include "field/edits/history_ratio_math.h"
 #include "field/edits/invalidation.h"
 #include "field/field_state.h"
 #include "field/passes.h"
@@ -142,13 +141,10 @@ std::vector<float> IrradianceField::State::apply_edits_to_slice(
   edits.pending.direct_light += after;
   const auto brighter = static_cast<float>(before > 0.0 ? after / before : 1.0);
   const auto texels = static_cast<std::size_t>(data.tile_texels());
-  std::vector<ProbeAtEdit> found;
-  for (std::size_t k = 0; k < probes.size(); ++k) {
-    statuses[probes[k]].revision = world.revision();
-    const std::span<glm::vec4> light = std::span(data.light).subspan(probes[k] * texels, texels);
-    found.push_back({static_cast<float>(texels) * mean_luminance(light),
-                     static_cast<float>(direct_before[k]), static_cast<float>(direct_after[k])});
-    for (glm::vec4& texel : light) texel *= brighter;
+  const std::vector<ProbeAtEdit> found = probes_at_edit(probes, data, direct_before, direct_after);
+  for (const int probe : probes) {
+    statuses[probe].revision = world.revision();
+    for (std::size_t t = 0; t < texels; ++t) data.light[probe * texels + t] *= brighter;
   }
   std::vector<float> shares = reduce_history_ratios(found, history_ratio);
   watch.finish(field_pass::kEdits, counted);

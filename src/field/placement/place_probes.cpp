@@ -157,7 +157,9 @@ void IrradianceField::State::initialize_relocated(const World& world, std::span<
   statistics.shadow_rays += backend->find_lookups(world, moved, data.traced_probes());
 }
 
-void IrradianceField::State::relocate_edited(const World& world, UpdateStatistics& statistics) {
+/// Places probes near edits that have stopped, or all where what is solid differs. Returns whether
+/// it did.
+bool IrradianceField::State::relocate_edited(const World& world, UpdateStatistics& statistics) {
   // Note the static geometry that was edited since the last update
   const auto changes = world.changes_since(placement.placed_revision);
   placement.placed_revision = world.revision();
@@ -177,11 +179,13 @@ void IrradianceField::State::relocate_edited(const World& world, UpdateStatistic
   }
 
   const std::vector<int> near = placement.open_before ? all_probes() : probes_where_edits_stopped();
-  const std::vector<int> moved = near.empty() ? std::vector<int>() : place_probes(world, near);
+  if (near.empty()) return false;
+  const std::vector<int> moved = place_probes(world, near);
   if (!moved.empty()) initialize_relocated(world, moved, statistics);
   for (const int probe : moved) inherit_history(probe, world);
   if (placement.open_before) forget_closed(*placement.open_before, world.revision());
   placement.open_before.reset();
+  return true;
 }
 
 /// The probes near places where edits have stopped, which are edited places no longer.

@@ -176,7 +176,7 @@ bool is_rotation(const mat3& axes) {
     // Written so that NaN fails
     if (!(length(off) <= kRotationSlack)) return false;
   }
-  return true;
+  return glm::determinant(axes) > 0.0f;
 }
 
 std::vector<VolumeRole> roles_of(std::span<const Volume> volumes) {
