@@ -18,6 +18,19 @@ WorkingIrradiance history_ratio_of(std::span<const int> probes, const ProbeData&
   return history_ratio;
 }
 
+std::vector<ProbeAtEdit> probes_at_edit(std::span<const int> probes, const ProbeData& data,
+                                        std::span<const double> direct_before,
+                                        std::span<const double> direct_after) {
+  const auto texels = static_cast<std::size_t>(data.tile_texels());
+  std::vector<ProbeAtEdit> found;
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    const TileLight light(&data.light[probes[k] * texels], texels);
+    found.push_back({static_cast<float>(texels) * mean_luminance(light),
+                     static_cast<float>(direct_before[k]), static_cast<float>(direct_after[k])});
+  }
+  return found;
+}
+
 std::vector<float> reduce_history_ratios(std::span<const ProbeAtEdit> probes,
                                          WorkingIrradiance& history_ratio) {
   if (probes.empty()) return {};

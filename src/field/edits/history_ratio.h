@@ -15,9 +15,14 @@ namespace lambent {
 /// The ratio of the light that some probes hold to the light that their last rays estimate, texel
 /// by texel.
 WorkingIrradiance history_ratio_of(std::span<const int> probes, const ProbeData& data);
-/// Reduces the history ratios of some probes, given what an edit finds of each: where it makes
-/// their direct light much brighter, and where they hold hardly any, see history_share(). The mean
-/// probe is that of these. Returns that share of each.
+/// What an edit finds of some probes that still hold the light before it. `direct_before`,
+/// `direct_after`: of each, see FieldBackend::direct_light().
+std::vector<ProbeAtEdit> probes_at_edit(std::span<const int> probes, const ProbeData& data,
+                                        std::span<const double> direct_before,
+                                        std::span<const double> direct_after);
+/// Reduces the history ratios of some probes where an edit made their direct light much brighter,
+/// see history_share(), given what it finds of each; the mean probe is that of these. Returns that
+/// share of each.
 std::vector<float> reduce_history_ratios(std::span<const ProbeAtEdit> probes,
                                          WorkingIrradiance& history_ratio);
 /// Stores the light that the last rays of some probes estimate: the solution of a solve without
