@@ -10,10 +10,12 @@
 LAMBENT_BEGIN
 
 // A cluster whose half diagonal is at most this share of its distance counts as one small light.
-const float kSmallCluster = 0.2f;
+// Half of this takes up to three times as long, and pictures are no better (docs/math.md, "The last
+// metre").
+const float kSmallCluster = 0.4f;
 // From this share on, the parts of a cluster count one by one. Between the two shares both results
 // are blended, since steps from one point to the next would be visible.
-const float kLargeCluster = 0.4f;
+const float kLargeCluster = 0.8f;
 
 /// Blend weight with which a cluster's parts count one by one.
 LAMBENT_FN float opened_share(LightTreeNode node, vec3 position_ws) {
