@@ -17,11 +17,11 @@ Expected<void> check_settings(const FieldSettings& s) {
   };
   if (outside(s.rays_per_probe, 16, 4096)) return fail("", "rays", "must be 16 to 4096 a probe");
   if (outside(s.hysteresis, 0.0f, 0.999f)) return fail("", "hysteresis", "must be 0 to 0.999");
-  if (s.irradiance_format > IrradianceFormat::float32 ||
-      s.distance_format > DistanceFormat::rg32f) {
-    return fail("", "format", "is none that there is");
+  if (s.irradiance_format > IrradianceFormat::float32) {
+    return fail("", "irradiance format", "is unknown");
   }
-  if (s.visibility > Visibility::exact) return fail("", "visibility", "is none that there is");
+  if (s.distance_format > DistanceFormat::rg32f) return fail("", "distance format", "is unknown");
+  if (s.visibility > Visibility::exact) return fail("", "visibility", "is unknown");
   // In an odd tile, a fetch along the x or y axis reads texels on one side of the axis only
   if (outside(s.irradiance_texels, 2, 16) || s.irradiance_texels % 2 != 0) {
     return fail("", "irradiance texels", "must be even, 2 to 16");
@@ -75,6 +75,9 @@ void IrradianceField::reset() {
             ClassificationInput{});
   s.edits.pending = {};
   s.placement.edited_places.clear();
+  s.placement.open_before.reset();
+  s.placement.solid = {};
+  s.data.solid_sides = {};
   s.edits.stale_sleeping.clear();
   s.edits.applied_revision = 0;
   s.placement.classified = false;

@@ -57,11 +57,15 @@ struct IrradianceField::State {
   /// Seed of the dither with which this update stores its results.
   uint dither_seed() const;
 
-  /// Finds which sides of surfaces bound solid matter, unless that is known of this scene.
-  void find_solid_sides(const World& world);
-  void forget_closed(std::span<const OpenPlaces> before, std::uint64_t revision);
+  /// Finds which sides of surfaces bound solid matter, unless that is known of this scene. Returns
+  /// whether it searched.
+  bool find_solid_sides(const World& world);
+  /// Lets the probes start anew whose places were closed and are open now.
+  void reset_opened_probes(std::span<const OpenPlaces> before, std::uint64_t revision);
   /// Whether one of the volumes moves with the viewer.
   bool follows_viewer() const;
+  /// Scrolls volumes with the viewer, and places and classifies probes. Returns whether it placed
+  /// some, or found what is solid.
   bool place_all(const World& world, const std::optional<vec3>& viewer_ws,
                  UpdateStatistics& statistics);
   /// Relocates some probes, starting from their places on the grid, and updates their
@@ -77,8 +81,10 @@ struct IrradianceField::State {
                             UpdateStatistics& statistics);
   /// Keeps the light of a relocated probe as the start of its new average.
   void inherit_history(int probe, const World& world);
-  /// Relocates probes near edited static geometry, once nothing there has been edited for a while.
+  /// The probes near places where edits have stopped, which are edited places no longer.
   std::vector<int> probes_where_edits_stopped();
+  /// Relocates probes near edited static geometry, once nothing there has been edited for a while;
+  /// all probes where what is solid differs. Returns whether it did.
   bool relocate_edited(const World& world, UpdateStatistics& statistics);
   /// Scrolls the volumes that follow the viewer. Returns the number of recycled probes.
   int scroll_volumes(const World& world, const vec3& viewer_ws, UpdateStatistics& statistics);

@@ -204,18 +204,19 @@ std::vector<int> IrradianceField::State::all_probes() const {
   return all;
 }
 
-/// Scrolls volumes with the viewer, and places and classifies probes.
-/// Returns whether it placed some.
+/// Scrolls volumes with the viewer, and places and classifies probes. Returns whether it placed
+/// some, or found what is solid.
 bool IrradianceField::State::place_all(const World& world, const std::optional<vec3>& viewer_ws,
                                        UpdateStatistics& statistics) {
-  find_solid_sides(world);
+  bool placed = find_solid_sides(world);
   if (viewer_ws) statistics.probes_recycled = scroll_volumes(world, *viewer_ws, statistics);
-  bool placed = updates == 0;
-  if (placed) {
+  if (updates == 0) {
     place_probes(world, all_probes());
     placement.placed_revision = world.revision();
+    placement.open_before.reset();
+    placed = true;
   } else {
-    placed = relocate_edited(world, statistics);
+    placed |= relocate_edited(world, statistics);
   }
   // An exact number of bounces is carried through all probes at once
   if (settings.max_bounces < 0) {

@@ -111,13 +111,17 @@ std::vector<Votes> votes_of_open(const Scene& scene, std::span<const Places> pla
 
 /// Whether a hit is on a wall of a room that may be dark: on the front of a single-sided triangle
 /// whose back open space does not see. Solid matter is bounded by backs, or, where a mesh is wound
-/// the wrong way, by fronts whose backs are seen.
+/// the wrong way, by fronts whose backs are seen. Triangles of fine meshes are seen too seldom;
+/// what is seen of their instance then counts.
 bool is_wall_of_room(const Scene& scene, const Votes& votes, const Hit& hit) {
   const Material& material =
       scene.materials[scene.meshes[scene.instances[hit.instance].mesh].material];
   if (!hit.front_face || material.double_sided) return false;
   const std::vector<Sightings>& seen = votes.triangles[hit.instance];
-  return hit.triangle >= seen.size() || seen[hit.triangle].back < kMinSightings;
+  const bool known = hit.triangle < seen.size() && seen[hit.triangle].all() >= kMinSightings;
+  if (known) return seen[hit.triangle].back < kMinSightings;
+  const Sightings& all = votes.instances[hit.instance];
+  return all.all() < kMinSightings || all.solid_sides() == kSolidBack;
 }
 
 /// The sides of a triangle that bound solid matter, by the first votes with sightings of it or at

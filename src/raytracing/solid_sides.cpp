@@ -32,20 +32,20 @@ std::array<std::size_t, 8> PlaceGrid::places_around(const glm::vec3& point_ws) c
   std::array<std::size_t, 8> places{};
   for (int corner = 0; corner < 8; ++corner) {
     const glm::ivec3 at = base + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
-    places[corner] = (static_cast<std::size_t>(at.z) * count.y + at.y) * count.x + at.x;
+    places[corner] = index(at);
   }
   return places;
 }
 
-bool OpenPlaces::reach(const glm::vec3& point_ws) const {
-  const glm::vec3 cells = grid.cells_at(point_ws);
-  if (glm::any(glm::lessThan(cells, glm::vec3(-1.0f))) ||
-      glm::any(glm::greaterThan(cells, glm::vec3(grid.count)))) {
-    return false;
-  }
-  const std::array<std::size_t, 8> around = grid.places_around(point_ws);
-  return std::any_of(around.begin(), around.end(),
-                     [&](std::size_t place) { return open[place] != 0; });
+bool PlaceGrid::contains(const glm::vec3& point_ws) const {
+  const glm::vec3 cells = cells_at(point_ws);
+  return glm::all(glm::greaterThanEqual(cells, glm::vec3(-1.0f))) &&
+         glm::all(glm::lessThanEqual(cells, glm::vec3(count)));
+}
+
+bool OpenPlaces::is_open(const glm::vec3& corner_ws) const {
+  const glm::ivec3 coords(glm::round(grid.cells_at(corner_ws)));
+  return open[grid.index(glm::clamp(coords, glm::ivec3(0), grid.count - 1))] != 0;
 }
 
 bool SolidSides::fits(const Scene& scene) const {

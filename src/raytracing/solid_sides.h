@@ -2,7 +2,6 @@
 // Which sides of triangles bound solid matter. A ray that hits such a side comes from inside.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -32,6 +31,12 @@ struct PlaceGrid {
   }
   /// Where the place with these coordinates is [m]: off the grid's own planes, within its hull.
   glm::vec3 position_ws(const glm::ivec3& coords) const;
+  std::size_t index(const glm::ivec3& coords) const {
+    return (static_cast<std::size_t>(coords.z) * count.y + coords.y) * count.x + coords.x;
+  }
+  /// Whether a point is within the grid's hull or less than a cell beyond it.
+  bool contains(const glm::vec3& point_ws) const;
+  bool operator==(const PlaceGrid&) const = default;
   /// The places around a point, or those nearest to it where it is outside.
   std::array<std::size_t, 8> places_around(const glm::vec3& point_ws) const;
 };
@@ -41,8 +46,8 @@ struct OpenPlaces {
   PlaceGrid grid;
   std::vector<std::uint8_t> open;  ///< 1: light can arrive there. Along x first, then y.
 
-  /// Whether one of the places around a point is open.
-  bool reach(const glm::vec3& point_ws) const;
+  /// Whether the place in the cell that begins at a point, or nearest to it, is open.
+  bool is_open(const glm::vec3& corner_ws) const;
 };
 
 /// For each triangle of each instance, which of its sides bound solid matter: neither, as for
@@ -65,11 +70,6 @@ struct SolidSides {
   }
   /// Whether it was made for the scene's present instances and triangles.
   bool fits(const Scene& scene) const;
-  /// Whether a point was found to be in open space.
-  bool is_open(const glm::vec3& point_ws) const {
-    return std::any_of(open_space.begin(), open_space.end(),
-                       [&](const OpenPlaces& places) { return places.reach(point_ws); });
-  }
 };
 
 /// A mesh whose winding makes triangles face solid matter.

@@ -7,7 +7,6 @@
 #ifndef LAMBENT_RAYTRACING_TRANSMISSION_MATH_H
 #define LAMBENT_RAYTRACING_TRANSMISSION_MATH_H
 
-#include "raytracing/glass/absorption.h"
 #include "raytracing/surface_math.h"
 #include "shared/sampling.h"
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "raytracing/glass/absorption.h"
 #include "raytracing/transmission_math.h"
 #include "raytracing/world_access.h"
 #include "shared/rays.h"

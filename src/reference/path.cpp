@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raytracing/glass/absorption.h"
 #include "raytracing/transmission_math.h"
 #include "raytracing/world_access.h"
 #include "reference/glass.h"

@@ -3,8 +3,8 @@
 #ifndef LAMBENT_RSM_GATHER_TEXEL_H
 #define LAMBENT_RSM_GATHER_TEXEL_H
 
-#include "rsm/texel_light.h"
 #include "rsm/records.h"
+#include "rsm/texel_light.h"
 #include "shared/color.h"
 
 LAMBENT_BEGIN

@@ -4,8 +4,8 @@
 #define LAMBENT_RSM_VISIBILITY_RAYS_H
 
 #include "raytracing/shadow_rays.h"
-#include "rsm/texel_light.h"
 #include "rsm/records.h"
+#include "rsm/texel_light.h"
 #include "shared/color.h"
 #include "shared/rays.h"
 

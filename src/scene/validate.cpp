@@ -182,7 +182,7 @@ const char* flaw_of_reach(const Instance& instance, const Bounds& mesh) {
 }
 
 const char* flaw_of(const Light& light) {
-  if (light.type > Light::Type::spot) return "is of no type that there is";
+  if (light.type > Light::Type::spot) return "is of an unknown type";
   const bool directional = light.type == Light::Type::directional;
   if (!within(light.intensity, 0.0f, directional ? kMaxIrradiance : kMaxIntensity)) {
     return directional ? "has an irradiance that is not within 0 to 1e10 W/m^2"

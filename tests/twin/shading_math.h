@@ -9,8 +9,8 @@
 #include "scene/coverage.h"
 #include "scene/latitude_longitude.h"
 #include "scene/light_tree/unoccluded_math.h"
-#include "scene/punctual_light.h"
 #include "scene/mip_level.h"
+#include "scene/punctual_light.h"
 #include "scene/texture_lookup.h"
 
 LAMBENT_BEGIN

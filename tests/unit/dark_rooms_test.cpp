@@ -2,9 +2,11 @@
 // Rooms in which no light is on, until one is, or a door opens; and walls in a layer of probes.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
+#include "field/edits/history_ratio_math.h"
 #include "lambent/field.h"
 #include "lambent/world.h"
 #include "support/box_scenes.h"
@@ -153,6 +155,38 @@ void expect_light_through_the_door(Place& place) {
   EXPECT_NEAR(light_behind_door(place.field) / settled, 1.0f, 0.15f);
 }
 
+TEST(SolidMatter, OfAFineMeshThatIsWoundTheWrongWayIsNoRoom) {
+  // Each of its triangles is seen too seldom to tell; all together they show their backs
+  Mesh ball;
+  constexpr int kRings = 48;
+  for (int v = 0; v <= kRings; ++v) {
+    for (int u = 0; u <= kRings; ++u) {
+      const float polar = 3.14159f * static_cast<float>(v) / kRings;
+      const float around = 6.28318f * static_cast<float>(u) / kRings;
+      ball.normals.emplace_back(std::sin(polar) * std::cos(around), std::cos(polar),
+                                std::sin(polar) * std::sin(around));
+      ball.positions.push_back(glm::vec3(0, 1.5f, 0) + 0.9f * ball.normals.back());
+    }
+  }
+  for (glm::uint v = 0; v < kRings; ++v) {
+    for (glm::uint u = 0; u < kRings; ++u) {
+      const glm::uint a = v * (kRings + 1) + u, b = a + kRings + 1;
+      ball.triangles.emplace_back(a, b, a + 1);
+      ball.triangles.emplace_back(a + 1, b, b + 1);
+    }
+  }
+  Scene scene = scene_of({box_mesh({-2, 0, -2}, {2, 3, 2}, /*inwards=*/true), ball});
+  scene.lights = {lamp_at({1.5f, 2.5f, 1.5f})};
+  const World world(scene);
+  IrradianceField field = IrradianceField::make(few_probes(), open_bounds(world)).value();
+  const int off = field.update(world).states.off;
+  for (glm::uvec3& triangle : scene.meshes[1].triangles) std::swap(triangle.y, triangle.z);
+  const World turned(scene);
+  IrradianceField other = IrradianceField::make(few_probes(), open_bounds(turned)).value();
+  EXPECT_GT(off, 0);
+  EXPECT_EQ(other.update(turned).states.off, off);
+}
+
 TEST(DarkRoom, IsLitThroughADoorThatOpens) {
   for (const bool dynamic : {false, true}) {
     SCOPED_TRACE(dynamic);
@@ -188,11 +222,32 @@ TEST(DarkRoomOfTwoSidedMaterial, IsLitTwoUpdatesAfterALampComesOn) {
   EXPECT_NEAR(light_on(place.field, kDarkFloor) / settled, 1.0f, 0.15f);
   place.update(4);
   EXPECT_NEAR(light_on(place.field, kDarkFloor) / settled, 1.0f, 0.1f);
-  // With its lamp off again it is still a room, and no light gets in
-  place.scene.lights[1].intensity = glm::vec3(0.0f);
+}
+
+TEST(DarkRoomOfTwoSidedMaterial, StaysARoomWhenItsLampIsCarriedAway) {
+  // What is solid is found anew, as the lamp shines where all was closed. The room that it leaves
+  // would be closed: the probes of its walls would be off, and it would glow
+  Scene scene = two_storeys();
+  scene.materials[0].double_sided = true;
+  Place place(std::move(scene));
+  place.scene.lights[0].position_ws = {0.5f, 1.0f, 0.3f};
   place.apply_edits();
-  place.update(2);
-  EXPECT_LT(light_on(place.field, kDarkCeiling, {0, -1, 0}), 1e-3f);
+  place.update(5);
+  EXPECT_LT(light_on(place.field, {0.3f, 3.1f, 0.2f}), 0.02f);
+  EXPECT_NEAR(light_on(place.field, kDarkFloor) / light_on(place.settled(), kDarkFloor), 1.0f,
+              0.1f);
+}
+
+TEST(DarkRoomOfTwoSidedMaterial, IsFoundAgainAfterAReset) {
+  Scene scene = two_storeys();
+  scene.materials[0].double_sided = true;
+  Place place(std::move(scene));
+  place.scene.lights.push_back(lamp_at({0.5f, 1.0f, 0.3f}));
+  place.apply_edits();
+  place.field.reset();
+  place.update(4);
+  EXPECT_NEAR(light_on(place.field, kDarkFloor) / light_on(place.settled(), kDarkFloor), 1.0f,
+              0.1f);
 }
 
 TEST(DarkRoomOfTwoSidedMaterial, IsLitTwoUpdatesAfterItsCeilingGlows) {
@@ -227,6 +282,22 @@ TEST(DarkRoomOfTwoSidedMaterial, IsLitThroughADoorThatOpens) {
     const float settled = light_behind_door(place.settled());
     EXPECT_NEAR(light_behind_door(place.field) / settled, 1.0f, 0.25f);
   }
+}
+
+TEST(HistoryShare, IsThatOfTheLightThatWasThere) {
+  const ProbeAtEdit mean = {1.0f, 1.0f, 1.0f};
+  // As bright as before: all of it
+  EXPECT_EQ(history_share({1.0f, 1.0f, 1.0f}, mean), 1.0f);
+  // Forty times the direct light, beside a tenth that others reflect: 4 * 1.1 of 40.1
+  EXPECT_NEAR(history_share({1.0f, 1.0f, 40.0f}, mean), 4.4f / 40.1f, 1e-5f);
+  // The first light of a dark room: next to nothing
+  EXPECT_LT(history_share({1e-4f, 0.0f, 0.1f}, mean), 0.01f);
+  EXPECT_EQ(history_share({0.0f, 0.0f, 0.1f}, mean), 0.0f);
+  // No light anywhere
+  EXPECT_EQ(history_share({0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}), 1.0f);
+  // Averages that start anew stay so
+  EXPECT_EQ(samples_after_edit(0.0f, 1.0f), 0.0f);
+  EXPECT_EQ(samples_after_edit(8.0f, 0.0f), 1.0f);
 }
 
 TEST(ProbesInAPlane, LightBothSidesOfASheet) {

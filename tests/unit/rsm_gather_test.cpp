@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "lambent/rsm.h"
-#include "rsm/texel_light.h"
 #include "rsm/maps/projection.h"
 #include "rsm/pattern.h"
+#include "rsm/texel_light.h"
 #include "shared/sampling.h"
 #include "support/field_scenes.h"
 #include "support/hand_made.h"

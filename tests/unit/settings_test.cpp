@@ -52,8 +52,9 @@ TEST(FieldSettings, OutOfRangeAreRefusedByName) {
   EXPECT_EQ(refused_of_field([](Field& s) { s.cascades = 17; }), "cascades");
   EXPECT_EQ(refused_of_field([](Field& s) { s.visibility = Visibility(7); }), "visibility");
   EXPECT_EQ(refused_of_field([](Field& s) { s.irradiance_format = IrradianceFormat(9); }),
-            "format");
-  EXPECT_EQ(refused_of_field([](Field& s) { s.distance_format = DistanceFormat(2); }), "format");
+            "irradiance format");
+  EXPECT_EQ(refused_of_field([](Field& s) { s.distance_format = DistanceFormat(2); }),
+            "distance format");
   // Unit and orthogonal, but left-handed
   const auto mirror = [](Field& s) { s.volumes.emplace_back().axes[0] *= -1.0f; };
   EXPECT_NE(refused_of_field(mirror), "");

@@ -8,6 +8,7 @@
 #include "compose/frame_tasks.h"
 #include "compose/glossy/path_rays.h"
 #include "core/parallel.h"
+#include "raytracing/glass/absorption.h"
 #include "raytracing/world_access.h"
 #include "scene/attributes.h"
 #include "scene/environment_sampling.h"

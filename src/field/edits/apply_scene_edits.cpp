@@ -24,6 +24,7 @@
 
 #include "core/pass_times.h"
 #include "field/edits/history_ratio.h"
+#include "field/edits/history_ratio_math.h"
 #include "field/edits/invalidation.h"
 #include "field/field_state.h"
 #include "field/passes.h"
@@ -139,7 +140,7 @@ std::vector<float> IrradianceField::State::apply_edits_to_slice(
   const double before = std::accumulate(direct_before.begin(), direct_before.end(), 0.0);
   const double after = std::accumulate(direct_after.begin(), direct_after.end(), 0.0);
   edits.pending.direct_light += after;
-  const auto brighter = static_cast<float>(before > 0.0 ? after / before : 1.0);
+  const float brighter = direct_growth(static_cast<float>(before), static_cast<float>(after));
   const auto texels = static_cast<std::size_t>(data.tile_texels());
   const std::vector<ProbeAtEdit> found = probes_at_edit(probes, data, direct_before, direct_after);
   for (const int probe : probes) {

@@ -25,8 +25,8 @@ std::vector<ProbeAtEdit> probes_at_edit(std::span<const int> probes, const Probe
   std::vector<ProbeAtEdit> found;
   for (std::size_t k = 0; k < probes.size(); ++k) {
     const TileLight light(&data.light[probes[k] * texels], texels);
-    found.push_back({static_cast<float>(texels) * mean_luminance(light),
-                     static_cast<float>(direct_before[k]), static_cast<float>(direct_after[k])});
+    found.push_back({mean_luminance(light), static_cast<float>(direct_before[k]),
+                     static_cast<float>(direct_after[k])});
   }
   return found;
 }
@@ -37,8 +37,8 @@ std::vector<float> reduce_history_ratios(std::span<const ProbeAtEdit> probes,
   double held = 0.0, before = 0.0, after = 0.0;
   for (const ProbeAtEdit& probe : probes) {
     held += probe.held;
-    before += probe.before;
-    after += probe.after;
+    before += probe.direct_before;
+    after += probe.direct_after;
   }
   const auto count = static_cast<double>(probes.size());
   const ProbeAtEdit mean = {static_cast<float>(held / count), static_cast<float>(before / count),

@@ -25,7 +25,7 @@ const float kMinHistoryRatio = 1e-5f;
 const float kMaxDirectGrowth = 4.0f;
 // Probes that receive hardly any direct light are lit by what others reflect, so that this share of
 // the mean probe's counts as their own. In a dark room it counts less, in proportion to what they
-// hold: with this share, light that an opened door let in was eight times too bright there.
+// hold: with this share, light that an opened door let in was 5.7 times too bright there.
 const float kReflectedShare = 0.1f;
 
 // A probe whose light an edit changes by less than this fraction keeps its old light and its
@@ -45,18 +45,25 @@ LAMBENT_FN vec4 history_ratio_between(vec4 last_irradiance_estimate, vec4 held) 
   return history_ratio;
 }
 
-/// What an edit finds of a probe, or of the mean one: sums of luminance over its texels or rays.
+/// How much brighter an edit makes direct light, from sums over probes. Their light, scaled by it,
+/// is a good start for the solve.
+LAMBENT_FN float direct_growth(float before, float after) {
+  return before > 0.0f ? after / before : 1.0f;
+}
+
+/// Luminances that an edit finds at a probe, or at the mean one. Only ratios between probes matter:
+/// the first is a mean or a sum over texels, the others are sums over texels or rays.
 struct ProbeAtEdit {
-  float held;    ///< Light that it holds before the edit.
-  float before;  ///< Direct light that it receives before the edit.
-  float after;   ///< The same after the edit.
+  float held;           ///< Of the light that it holds before the edit.
+  float direct_before;  ///< Of the direct light that it receives before the edit.
+  float direct_after;   ///< Of the direct light that it receives after the edit.
 };
 
 /// The share of a probe's history that holds after an edit, 0 to 1.
 LAMBENT_FN float history_share(ProbeAtEdit own, ProbeAtEdit mean) {
   float reflected = own.held < kReflectedShare * mean.held ? own.held / mean.held : kReflectedShare;
-  float was = own.before + reflected * mean.before;
-  float is = own.after + reflected * mean.after;
+  float was = own.direct_before + reflected * mean.direct_before;
+  float is = own.direct_after + reflected * mean.direct_after;
   return is > kMaxDirectGrowth * was ? kMaxDirectGrowth * was / is : 1.0f;
 }
 

@@ -30,9 +30,15 @@ constexpr int kRestUpdates = 8;
 constexpr float kFar = 1e15f;
 const Bounds kEverywhere{vec3(-kFar), vec3(kFar)};
 
-/// Whether a change makes a light or an emissive surface shine in what counts as solid matter.
-bool shines_in_the_dark(const World& world, std::span<const WorldChanges> changes,
-                        const SolidSides& sides) {
+/// Whether something moved.
+bool moves(std::span<const WorldChanges> changes) {
+  return std::any_of(changes.begin(), changes.end(),
+                     [](const WorldChanges& change) { return !change.moved.empty(); });
+}
+
+/// Whether a change makes a light or an emissive surface shine in a closed region.
+bool lights_closed_region(const World& world, std::span<const WorldChanges> changes,
+                          const SolidSides& sides) {
   std::vector<vec3> points;
   bool emission = false;
   for (const WorldChanges& change : changes) {
@@ -50,68 +56,66 @@ bool shines_in_the_dark(const World& world, std::span<const WorldChanges> change
   return !points.empty() && lights_closed_places(world, sides.open_space, points);
 }
 
-/// Whether a change opens a way into what counts as solid matter.
-bool opens_the_dark(const World& world, std::span<const WorldChanges> changes, SolidSides& sides) {
+/// Whether a movement opens a way into a closed region.
+bool opens_closed_region(const World& world, std::span<const WorldChanges> changes,
+                         SolidSides& sides) {
   std::vector<Bounds> moved;
   for (const WorldChanges& change : changes) {
     moved.insert(moved.end(), change.moved.begin(), change.moved.end());
   }
-  return !moved.empty() && reach_closed_places(world, moved, sides.open_space);
-}
-
-/// Whether two grids have the same places.
-bool is_same(const PlaceGrid& a, const PlaceGrid& b) {
-  return a.origin_ws == b.origin_ws && a.axes == b.axes && a.spacing == b.spacing &&
-         a.count == b.count;
+  return !moved.empty() && opens_closed_region(world, moved, sides.open_space);
 }
 
 }  // namespace
 
-/// Forgets the light of probes at places that were closed and are open now: it is that of the dark.
-void IrradianceField::State::forget_closed(std::span<const OpenPlaces> before,
-                                           std::uint64_t revision) {
+/// Lets the probes whose places were closed and are open now start anew, and forgets the
+/// corrections around them: they hold light of when it was dark there.
+void IrradianceField::State::reset_opened_probes(std::span<const OpenPlaces> before,
+                                                 std::uint64_t revision) {
   // The last grids of places are those of the volumes
   const std::vector<OpenPlaces>& now = data.solid_sides.open_space;
   const std::size_t volumes_there = data.store.grids().size();
   if (before.size() != now.size() || now.size() < volumes_there) return;
   std::vector<float> kept(statuses.size(), 1.0f);
   for (int probe = 0; probe < data.store.probes(); ++probe) {
-    const ProbeGrid& grid = data.store.grid_of(probe);
     const std::size_t places = now.size() - volumes_there + data.store.volume_of(probe);
-    if (!is_same(before[places].grid, now[places].grid)) continue;
-    const ivec3 at = probe_coords(grid, probe);
-    const std::size_t place =
-        (static_cast<std::size_t>(at.z) * grid.count.y + at.y) * grid.count.x + at.x;
-    if (before[places].open[place] != 0 || now[places].open[place] == 0) continue;
+    const vec3 position_ws = data.store.probe_grid_position_ws(probe);
+    if (before[places].is_open(position_ws) || !now[places].is_open(position_ws)) continue;
     reset_history(probe, revision, statuses, scheduling.scheduler);
     kept[probe] = 0.0f;
   }
   backend->forget_corrections(kept);
 }
 
-void IrradianceField::State::find_solid_sides(const World& world) {
+/// Finds what is solid where that may differ from what was found last. Returns whether it did.
+bool IrradianceField::State::find_solid_sides(const World& world) {
   const auto changes = world.changes_since(placement.solid_revision);
   placement.solid_revision = world.revision();
   const bool made = data.solid_sides.fits(world.scene());
-  if (made && changes && !shines_in_the_dark(world, *changes, data.solid_sides) &&
-      !opens_the_dark(world, *changes, data.solid_sides)) {
-    return;
-  }
+  SolidSearch& search = placement.solid;
+  if (!changes || moves(*changes)) search.moved = true;
+  search.needed = search.needed || !made || !changes ||
+                  lights_closed_region(world, *changes, data.solid_sides) ||
+                  opens_closed_region(world, *changes, data.solid_sides);
+  // After a search that found nothing new, wait: lamps inside of things may flicker or move in
+  // every update
+  const bool waits = made && search.in_vain && updates - search.update < kRestUpdates;
+  if (!search.needed || waits) return false;
+
   SolidSides before = std::move(data.solid_sides);
   const std::vector<PlaceGrid> grids = place_grids(data.store);
   // A volume that extends out of a room is meant to light its outside, too. Volumes that follow the
   // viewer always extend out of the scene, which means nothing
   const bool outside_counts = !follows_viewer() && reach_out_of_scene(world, grids);
-  const bool still = changes && std::all_of(changes->begin(), changes->end(),
-                                            [](const WorldChanges& c) { return c.moved.empty(); });
-  data.solid_sides = lambent::find_solid_sides(
-      world, grids, outside_counts,
-      still ? std::span<const OpenPlaces>(before.open_space) : std::span<const OpenPlaces>());
+  data.solid_sides =
+      lambent::find_solid_sides(world, grids, outside_counts,
+                                search.moved ? std::span<const OpenPlaces>()
+                                             : std::span<const OpenPlaces>(before.open_space));
   backend->push_solid_sides();
+  search = {.in_vain = made && data.solid_sides.words == before.words, .update = updates};
   // Where a dark room had counted as solid matter, all probes are placed again
-  if (made && data.solid_sides.words != before.words) {
-    placement.open_before = std::move(before.open_space);
-  }
+  if (made && !search.in_vain) placement.open_before = std::move(before.open_space);
+  return true;
 }
 
 std::vector<int> IrradianceField::State::place_probes(const World& world,
@@ -183,7 +187,7 @@ bool IrradianceField::State::relocate_edited(const World& world, UpdateStatistic
   const std::vector<int> moved = place_probes(world, near);
   if (!moved.empty()) initialize_relocated(world, moved, statistics);
   for (const int probe : moved) inherit_history(probe, world);
-  if (placement.open_before) forget_closed(*placement.open_before, world.revision());
+  if (placement.open_before) reset_opened_probes(*placement.open_before, world.revision());
   placement.open_before.reset();
   return true;
 }

@@ -21,10 +21,19 @@ struct EditedPlace {
   int update;  ///< Number of the last update that found an edit in the box.
 };
 
+/// When what is solid was found last, and whether it must be found again.
+struct SolidSearch {
+  bool needed = false;   ///< A closed region may have been opened or lit since.
+  bool moved = false;    ///< Something has moved since.
+  bool in_vain = false;  ///< The last search found nothing new.
+  int update = 0;        ///< Number of the update of the last search.
+};
+
 struct PlacementState {
   std::vector<ClassificationInput> classification_inputs;  ///< From the static part of the scene.
   std::vector<EditedPlace> edited_places = {};
-  std::uint64_t solid_revision = 0;   ///< Revision that ProbeData::solid_sides are up to date with.
+  std::uint64_t solid_revision = 0;  ///< Revision that ProbeData::solid_sides are up to date with.
+  SolidSearch solid = {};
   std::uint64_t placed_revision = 0;  ///< The revision that edited_places are up to date with.
   /// Where what is solid differs since probes were placed: the places that were open before.
   std::optional<std::vector<OpenPlaces>> open_before = {};

@@ -72,7 +72,8 @@ LAMBENT_FN PlaneBelow plane_below(FixedRayHit hit) {
   return plane;
 }
 
-/// Whether the coordinates of a probe have an odd sum: each of its neighbours on the grid differs.
+/// Whether the coordinates under which a probe is stored have an odd sum. Its neighbours on the
+/// grid differ, except where a scrolled grid with an odd number of probes wraps around.
 LAMBENT_FN uint is_odd_probe(ProbeGrid grid, int probe) {
   ivec3 stored = stored_coords(grid, probe_coords(grid, probe));
   return uint(stored.x + stored.y + stored.z) & 1u;

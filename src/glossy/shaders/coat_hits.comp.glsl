@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "glossy/glossy_records.h"
+#include "raytracing/glass/absorption.h"
 #include "raytracing/shaders/sky.glsl"
 
 layout(local_size_x = 64) in;

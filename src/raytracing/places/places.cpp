@@ -61,7 +61,7 @@ Places::Places(const World& world, const PlaceGrid& grid)
 }
 
 void Places::keep_open(const OpenPlaces& before) {
-  if (before.open.size() != count()) return;
+  if (before.grid != grid_) return;
   std::vector<std::size_t> all(regions_, 0), open(regions_, 0);
   for (std::size_t place = 0; place < count(); ++place) {
     ++all[region_[place]];
@@ -259,6 +259,7 @@ bool lights_closed_places(const World& world, std::span<const OpenPlaces> open_s
   std::vector<std::uint8_t> open;
   for (const OpenPlaces& places : open_space) {
     for (const vec3& point : points_ws) {
+      if (!places.grid.contains(point)) continue;
       for (const std::size_t place : places.grid.places_around(point)) {
         ways.push_back(ray_between(places.grid.position_ws(places.grid.coords(place)), point));
         open.push_back(places.open[place]);
@@ -267,10 +268,10 @@ bool lights_closed_places(const World& world, std::span<const OpenPlaces> open_s
   }
   std::vector<std::uint8_t> occluded(ways.size());
   tracer_of(world).occlusions(ways, occluded);
-  constexpr std::size_t kAround = 8;
-  for (std::size_t first = 0; first < ways.size(); first += kAround) {
+  constexpr std::size_t kCorners = 8;  // places around each point
+  for (std::size_t first = 0; first < ways.size(); first += kCorners) {
     bool sees_open = false, sees_closed = false;
-    for (std::size_t i = first; i < first + kAround; ++i) {
+    for (std::size_t i = first; i < first + kCorners; ++i) {
       if (occluded[i] == 0) (open[i] != 0 ? sees_open : sees_closed) = true;
     }
     if (sees_closed && !sees_open) return true;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "raytracing/places/places.h"
 #include "raytracing/world_access.h"
@@ -15,6 +17,10 @@ bool contains(const Bounds& box, const vec3& point) {
   return glm::all(glm::lessThanEqual(box.min, point)) &&
          glm::all(glm::lessThanEqual(point, box.max));
 }
+
+// More places that are seen at once within boxes are taken to be a room, whose walls or door moved
+// in one piece. Of a thing that moves, so many are seen once, where it had been.
+constexpr std::size_t kPlacesOfRoom = 64;
 
 /// The places of a grid, and a search for closed ones.
 class Search {
@@ -32,6 +38,10 @@ class Search {
       high = max(high, cells);
     }
     const ivec3 last = grid_.count - 1;
+    if (glm::any(glm::lessThan(high, vec3(-1.0f))) ||
+        glm::any(glm::greaterThan(low, vec3(grid_.count)))) {
+      return;
+    }
     const ivec3 from(clamp(floor(low) - 1.0f, vec3(0.0f), vec3(last)));
     const ivec3 to(clamp(ceil(high) + 1.0f, vec3(0.0f), vec3(last)));
     for (int z = from.z; z <= to.z; ++z) {
@@ -42,14 +52,15 @@ class Search {
   }
 
   /// Opens those of the places that an open neighbour sees, and goes on with the neighbours of
-  /// these. Returns whether one of them is in none of the boxes.
+  /// these. Returns whether one of them is in none of the boxes, or whether they are many.
   bool run(const RayTracer& tracer, std::span<const Bounds> boxes) {
     while (!asked_.empty()) {
       trace_neighbours(tracer);
       asked_.clear();
-      for (std::size_t i = 0; i < ways_.size(); ++i) {
+      for (std::size_t i = 0; i < rays_.size(); ++i) {
         if (occluded_[i] != 0 || is_open(seen_[i])) continue;
-        places_.open[index(seen_[i])] = 1;
+        places_.open[grid_.index(seen_[i])] = 1;
+        if (++opened_ > kPlacesOfRoom) return true;
         const vec3 position_ws = grid_.position_ws(seen_[i]);
         if (std::none_of(boxes.begin(), boxes.end(),
                          [&](const Bounds& box) { return contains(box, position_ws); })) {
@@ -62,10 +73,7 @@ class Search {
   }
 
  private:
-  std::size_t index(const ivec3& at) const {
-    return (static_cast<std::size_t>(at.z) * grid_.count.y + at.y) * grid_.count.x + at.x;
-  }
-  bool is_open(const ivec3& at) const { return places_.open[index(at)] != 0; }
+  bool is_open(const ivec3& at) const { return places_.open[grid_.index(at)] != 0; }
   void add(const ivec3& at) {
     if (!is_open(at)) asked_.push_back(at);
   }
@@ -81,38 +89,44 @@ class Search {
     }
   }
 
-  /// Traces rays from the open neighbours of the places that are asked for.
+  /// Traces rays between the places that are asked for and their open neighbours, from the lower
+  /// one to the higher one, as Places does: rays along cracks may pass in one direction alone.
   void trace_neighbours(const RayTracer& tracer) {
-    ways_.clear();
+    rays_.clear();
     seen_.clear();
     for (const ivec3& place : asked_) {
       for_each_neighbour(place, [&](const ivec3& there) {
         if (!is_open(there)) return;
-        ways_.push_back(ray_between(grid_.position_ws(there), grid_.position_ws(place)));
+        const bool higher = grid_.index(there) > grid_.index(place);
+        rays_.push_back(ray_between(grid_.position_ws(higher ? place : there),
+                                    grid_.position_ws(higher ? there : place)));
         seen_.push_back(place);
       });
     }
-    occluded_.assign(ways_.size(), 0);
-    tracer.occlusions(ways_, occluded_);
+    occluded_.assign(rays_.size(), 0);
+    tracer.occlusions(rays_, occluded_);
   }
 
   OpenPlaces& places_;
   const PlaceGrid& grid_;
   std::vector<ivec3> asked_;  // closed places
-  std::vector<Ray> ways_;     // from open neighbours to these
-  std::vector<ivec3> seen_;   // where the ways lead
+  std::vector<Ray> rays_;     // between these and open neighbours
+  std::vector<ivec3> seen_;   // of each ray, the closed place
   std::vector<std::uint8_t> occluded_;
+  std::size_t opened_ = 0;
 };
 
 }  // namespace
 
-bool reach_closed_places(const World& world, std::span<const Bounds> boxes,
-                         std::span<OpenPlaces> open_space) {
-  for (OpenPlaces& places : open_space) {
+bool opens_closed_region(const World& world, std::span<const Bounds> boxes,
+                         std::vector<OpenPlaces>& open_space) {
+  std::vector<OpenPlaces> found = open_space;
+  for (OpenPlaces& places : found) {
     Search search(places);
     for (const Bounds& box : boxes) search.start_from(box);
     if (search.run(tracer_of(world), boxes)) return true;
   }
+  open_space = std::move(found);
   return false;
 }
 

@@ -11,10 +11,11 @@
 
 namespace lambent {
 
-/// Opens the closed places that open neighbours now see, within boxes in which things moved: there,
-/// something gave way. Returns whether closed places beyond the boxes are seen as well, as behind a
-/// door that has opened; `open_space` is then out of date.
-bool reach_closed_places(const World& world, std::span<const Bounds> boxes,
-                         std::span<OpenPlaces> open_space);
+/// Whether open places now see into a closed region, because something in these boxes gave way: a
+/// closed place that is in none of the boxes, as behind a door that has opened, or more closed
+/// places than a thing that moved on leaves behind. `open_space` is then out of date. Otherwise,
+/// the places that were seen within the boxes are opened.
+bool opens_closed_region(const World& world, std::span<const Bounds> boxes,
+                         std::vector<OpenPlaces>& open_space);
 
 }  // namespace lambent

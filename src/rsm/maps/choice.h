@@ -4,8 +4,8 @@
 #define LAMBENT_RSM_MAPS_CHOICE_H
 
 #include "raytracing/ray_records.h"
-#include "rsm/texel_light.h"
 #include "rsm/records.h"
+#include "rsm/texel_light.h"
 #include "shared/random.h"
 #include "shared/sampling.h"
 

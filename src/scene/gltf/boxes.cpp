@@ -26,7 +26,7 @@ const char* place_box(const glm::mat4& world_from_node, glm::vec3& centre, glm::
       return "the node is sheared.";
     }
   }
-  // A box is its own mirror image
+  // Mirroring a box changes nothing, and makes its axes a rotation
   if (glm::determinant(axes) < 0.0f) axes[0] = -axes[0];
   return is_in_reach(centre) && is_in_reach(size) ? nullptr
                                                   : "it reaches beyond 1e9 m from the origin.";

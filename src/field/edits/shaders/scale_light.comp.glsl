@@ -30,7 +30,7 @@ ProbeAtEdit probe_at_edit(vec3 sums) {
 /// Scales the light of the list's probe k, whose tile has so many texels.
 void scale(int k, int tile) {
   vec3 all = vec3(args.sums.at[0], args.sums.at[1], args.sums.at[2]);
-  float brighter = all.y > 0.0 ? all.z / all.y : 1.0;
+  float brighter = direct_growth(all.y, all.z);
   vec3 own = vec3(0.0);
   for (int t = 0; t < tile; ++t) own += light_at(k * tile + t, tile);
   float share = history_share(probe_at_edit(own), probe_at_edit(all / float(args.count)));
