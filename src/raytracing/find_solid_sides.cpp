@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "raytracing/places/places.h"
+#include "raytracing/places/wall_heading.h"
 #include "scene/transmission.h"
 
 namespace lambent {
@@ -57,6 +58,17 @@ PlaceGrid grid_over(const Bounds& box, float places) {
   grid.count = clamp(ivec3(size / spacing), ivec3(2), ivec3(kMaxPlacesAlongAxis));
   grid.spacing = size / vec3(grid.count - 1);
   grid.origin_ws = box.min;
+  return grid;
+}
+
+/// The grid over a whole scene, turned as its walls are: of a building that stands askew in its
+/// bounds, half of the places would be outside.
+PlaceGrid grid_over_scene(const Scene& scene, const Bounds& bounds) {
+  const glm::mat3 axes = axes_of_walls(scene);
+  if (axes == glm::mat3(1.0f)) return grid_over(bounds, kScenePlaces);
+  PlaceGrid grid = grid_over(bounds_along(scene, axes), kScenePlaces);
+  grid.axes = axes;
+  grid.origin_ws = axes * grid.origin_ws;
   return grid;
 }
 
@@ -168,7 +180,7 @@ SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids
   const Bounds bounds = world_bounds(scene), wide = widened(bounds);
   // A flat scene has no volume within its bounds
   const bool flat = glm::any(glm::lessThanEqual(bounds.max, bounds.min));
-  places.emplace_back(world, grid_over(flat ? wide : bounds, kScenePlaces));
+  places.emplace_back(world, flat ? grid_over(wide, kScenePlaces) : grid_over_scene(scene, bounds));
   places.emplace_back(world, grid_over(wide, kPlacesAround));
   const bool room = places.front().enclosed_share() >= kMinRoomShare;
   const std::size_t of_scene = grids.empty() ? 0 : places.size();

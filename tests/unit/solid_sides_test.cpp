@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "field/placement/relocate.h"
 #include "raytracing/find_solid_sides.h"
@@ -62,6 +63,23 @@ void expect_solid_walls(const Scene& scene) {
 
 TEST(SolidSides, AreTheInsidesOfWalls) {
   expect_solid_walls(thick_walled_room());
+}
+
+TEST(SolidSides, OfASheetRoomAreItsOutsidesHoweverItStands) {
+  // A long room of single sheets that is open at one end, under a sky. Of the places in its bounds
+  // most are outside if it stands askew
+  for (const float degrees : {0.0f, 30.0f, 45.0f, 80.0f}) {
+    Mesh room = box_mesh({-10, 0, -3}, {10, 3, 3}, /*inwards=*/true);
+    room.triangles.erase(room.triangles.begin(), room.triangles.begin() + 2);
+    Scene scene = scene_of({room});
+    scene.environment.radiance = vec3(1.0f);
+    const glm::mat4 turn =
+        glm::rotate(glm::mat4(1.0f), glm::radians(degrees), vec3(0.0f, 1.0f, 0.0f));
+    scene.instances[0].world_from_object = turn;
+    const SolidSides sides = find_solid_sides(World(scene), {});
+    EXPECT_TRUE(is_inside(scene, sides, turn * glm::vec4(5.0f, 3.5f, 0.0f, 1.0f))) << degrees;
+    EXPECT_FALSE(is_inside(scene, sides, turn * glm::vec4(5.0f, 1.5f, 0.0f, 1.0f))) << degrees;
+  }
 }
 
 TEST(SolidSides, AreFoundByALampThatADeepShadeHides) {
