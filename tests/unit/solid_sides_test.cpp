@@ -76,8 +76,10 @@ TEST(SolidSides, OfASheetRoomAreItsOutsidesHoweverItStands) {
     const glm::mat4 turn =
         glm::rotate(glm::mat4(1.0f), glm::radians(degrees), vec3(0.0f, 1.0f, 0.0f));
     scene.instances[0].world_from_object = turn;
-    const SolidSides sides = find_solid_sides(World(scene), {});
-    EXPECT_TRUE(is_inside(scene, sides, turn * glm::vec4(5.0f, 3.5f, 0.0f, 1.0f))) << degrees;
+    const World world(scene);
+    const PlaceGrid grid = {world_bounds(scene).min, mat3(1.0f), vec3(1.0f), ivec3(16, 4, 16)};
+    const SolidSides sides = find_solid_sides(world, {&grid, 1});
+    EXPECT_TRUE(is_inside(scene, sides, turn * glm::vec4(0.0f, 1.5f, 3.3f, 1.0f))) << degrees;
     EXPECT_FALSE(is_inside(scene, sides, turn * glm::vec4(5.0f, 1.5f, 0.0f, 1.0f))) << degrees;
   }
 }
