@@ -11,6 +11,7 @@
 #include "first_picture/subject.h"
 #include "first_picture/survey.h"
 #include "lambent/first_picture.h"
+#include "raytracing/boxes.h"
 #include "raytracing/surface.h"
 #include "raytracing/world_access.h"
 #include "scene/attributes.h"
@@ -41,10 +42,6 @@ bool may_be_sky(const Scene& scene, const Instance& instance) {
   const Material& material = scene.materials[scene.meshes[instance.mesh].material];
   return may_emit(material) && material.alpha_mode == AlphaMode::opaque &&
          material.transmission == 0.0f && !instance.dynamic;
-}
-
-bool contains(const Bounds& box, const glm::vec3& point) {
-  return glm::all(glm::lessThan(box.min, point)) && glm::all(glm::greaterThan(box.max, point));
 }
 
 const TextureView& emission_view(const Material& material) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Intersection tests of rays with boxes.
+// Boxes, the points in them and the rays that cross them.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,6 +8,11 @@
 #include "lambent/scene.h"
 
 namespace lambent {
+
+/// Whether a point is inside a box, off its sides.
+inline bool contains(const Bounds& box, const glm::vec3& point) {
+  return glm::all(glm::lessThan(box.min, point)) && glm::all(glm::lessThan(point, box.max));
+}
 
 /// Whether two boxes share a point.
 inline bool overlap(const Bounds& a, const Bounds& b) {

@@ -11,8 +11,8 @@
 #include "lambent/world.h"
 #include "raytracing/boxes.h"
 #include "raytracing/find_solid_sides.h"
+#include "raytracing/places/closed_regions.h"
 #include "raytracing/places/places.h"
-#include "raytracing/places/reach_places.h"
 #include "raytracing/world_access.h"
 
 namespace lambent {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "raytracing/places/reach_places.h"
+#include "raytracing/places/closed_regions.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -7,16 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "raytracing/boxes.h"
 #include "raytracing/places/places.h"
 #include "raytracing/world_access.h"
 
 namespace lambent {
 namespace {
-
-bool contains(const Bounds& box, const vec3& point) {
-  return glm::all(glm::lessThanEqual(box.min, point)) &&
-         glm::all(glm::lessThanEqual(point, box.max));
-}
 
 // More places that are seen at once within boxes are taken to be a room, whose walls or door moved
 // in one piece. Of a thing that moves, so many are seen once, where it had been.
