@@ -155,30 +155,33 @@ Expected<void> check(const DenoiseView& view, const NoisyLight& light,
   }
   const std::size_t pixels =
       static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
-  const bool whole = view.positions_ws.size() == pixels && view.normals_ws.size() == pixels &&
-                     view.depths.size() == pixels;
-  if (!whole) return fail("", "denoise view", "has not one element a pixel");
-  const auto fits = [&](std::size_t size, bool optional) {
-    return size == pixels || (optional && size == 0);
+  const bool lobes = !view.lobes.alphas.empty();
+  struct Span {
+    const char* name;
+    std::size_t size;
+    bool may_be_empty;
   };
-  if (const DenoiseLobes& lobes = view.lobes; !lobes.alphas.empty()) {
-    if (!fits(lobes.alphas.size(), false) || !fits(lobes.to_viewer_ws.size(), false) ||
-        !fits(lobes.inverse_distances.size(), false)) {
-      return fail("", "denoise lobes", "have not one element a pixel");
-    }
-    if (!light.base.empty() || !light.levels.empty()) {
-      return fail("", "noisy light", "of lobes has a base or levels");
-    }
+  for (const Span& span :
+       {Span{"positions", view.positions_ws.size(), false},
+        Span{"normals", view.normals_ws.size(), false}, Span{"depths", view.depths.size(), false},
+        Span{"alphas of lobes", view.lobes.alphas.size(), true},
+        Span{"viewers of lobes", view.lobes.to_viewer_ws.size(), !lobes},
+        Span{"distances of lobes", view.lobes.inverse_distances.size(), !lobes},
+        Span{"light", light.light.size(), false}, Span{"base", light.base.size(), true},
+        Span{"variance", light.variance.size(), true}, Span{"levels", light.levels.size(), true},
+        Span{"filtered light", filtered.size(), false}}) {
+    if (span.size == pixels || (span.may_be_empty && span.size == 0)) continue;
+    return fail(
+        "", span.name,
+        "has " + std::to_string(span.size) + " elements for " + std::to_string(pixels) + " pixels");
   }
-  if (fits(light.light.size(), false) && fits(light.base.size(), true) &&
-      fits(light.variance.size(), true) && fits(light.levels.size(), true) &&
-      fits(filtered.size(), false)) {
-    if (!light.base.empty() && !light.levels.empty()) {
-      return fail("", "noisy light", "has both a base and levels");
-    }
-    return {};
+  if (lobes && (!light.base.empty() || !light.levels.empty())) {
+    return fail("", "noisy light", "of lobes has a base or levels");
   }
-  return fail("", "noisy light", "has not one element a pixel");
+  if (!light.base.empty() && !light.levels.empty()) {
+    return fail("", "noisy light", "has both a base and levels");
+  }
+  return {};
 }
 
 }  // namespace

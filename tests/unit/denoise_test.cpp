@@ -342,9 +342,16 @@ TEST(Denoise, RefusesWhatIsOutOfRange) {
 
   const Wall wall(8, 8);
   std::vector<vec3> result(wall.light.size()), too_few(63);
-  EXPECT_FALSE(Denoiser().filter(wall.view(), {wall.light, {}, {}}, {}, too_few));
-  EXPECT_FALSE(Denoiser().filter(wall.view(), {wall.light, too_few, {}}, {}, result));
-  EXPECT_FALSE(Denoiser().filter({}, {{}, {}, {}}, {}, {}));
+  const auto place_of = [](const Expected<void>& fine) { return fine ? "" : fine.error().place; };
+  Denoiser denoiser;
+  EXPECT_EQ(place_of(denoiser.filter(wall.view(), {.light = wall.light}, {}, too_few)),
+            "filtered light");
+  EXPECT_EQ(place_of(denoiser.filter(wall.view(), {wall.light, too_few}, {}, result)), "base");
+  EXPECT_EQ(place_of(denoiser.filter(wall.view(), {.light = too_few}, {}, result)), "light");
+  DenoiseView view = wall.view();
+  view.normals_ws = too_few;
+  EXPECT_EQ(place_of(denoiser.filter(view, {.light = wall.light}, {}, result)), "normals");
+  EXPECT_EQ(place_of(denoiser.filter({}, {}, {}, {})), "denoise view");
 }
 
 }  // namespace
