@@ -54,9 +54,8 @@ void measure_rest() {
   std::printf("### Coefficient of variation of E over %d frames of 100,000 rays, nothing moving\n",
               kRestFrames);
   std::printf(
-      "| scene, full updates before | corrections | root mean square | largest | probe rays a "
-      "frame "
-      "|\n");
+      "| scene, full updates before | corrections | root mean square | largest | "
+      "probe rays a frame |\n");
   std::printf("|---|---|---|---|---|\n");
   for (const bool corrections : {true, false}) {
     for (const int updates : {16, 100}) {

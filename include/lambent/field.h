@@ -59,8 +59,8 @@ struct FieldSettings {
   /// empty.
   int cascades = 0;
   /// Additional volumes, in which light is finer, such as those of Scene::volumes; at most 64 with
-  /// the others. Each counts within
-  /// its box and a cell around it. The cost is in proportion to its probes.
+  /// the others. Each counts within its box and a cell around it. The cost is in proportion to its
+  /// probes.
   std::vector<ProbeVolume> volumes = {};
 
   /// Rays a probe traces in an update, 16 to 4096. Cost is in proportion; noise falls with the

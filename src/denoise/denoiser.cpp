@@ -155,7 +155,7 @@ Expected<void> check(const DenoiseView& view, const NoisyLight& light,
   }
   const std::size_t pixels =
       static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
-  const bool lobes = !view.lobes.alphas.empty();
+  const bool lobes = has_lobes(view);
   struct Span {
     const char* name;
     std::size_t size;

@@ -57,8 +57,8 @@ struct IrradianceField::State {
   /// Seed of the dither with which this update stores its results.
   uint dither_seed() const;
 
-  /// Finds which sides of surfaces bound solid matter, unless that is known of this scene. Returns
-  /// whether it searched.
+  /// Finds which sides of surfaces bound solid matter, where that may differ from what was found
+  /// last. Returns whether it searched.
   bool find_solid_sides(const World& world);
   /// Lets the probes start anew whose places were closed and are open now.
   void reset_opened_probes(std::span<const OpenPlaces> before, std::uint64_t revision);

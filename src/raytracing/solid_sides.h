@@ -31,6 +31,7 @@ struct PlaceGrid {
   }
   /// Where the place with these coordinates is [m]: off the grid's own planes, within its hull.
   glm::vec3 position_ws(const glm::ivec3& coords) const;
+  /// The index of the place with these coordinates.
   std::size_t index(const glm::ivec3& coords) const {
     return (static_cast<std::size_t>(coords.z) * count.y + coords.y) * count.x + coords.x;
   }

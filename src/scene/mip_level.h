@@ -17,18 +17,24 @@ LAMBENT_FN float share_of_triangle(float footprint, float double_area) {
   return 2.0f * footprint * footprint / double_area;
 }
 
-/// The MIP level at which a cone covers about one texel: half the logarithm of the texels it
-/// covers (Eq. 2). The edges are those of the triangle, in texture
-/// coordinates, `share_of_triangle` is the cone's cross section over the triangle's area.
-LAMBENT_FN int mip_level(vec2 uv_edge1, vec2 uv_edge2, vec2 uv_scale, int width, int height,
-                         float share_of_triangle) {
+/// The number of a texture's texels that a cone covers (Eq. 2). The edges are those of the
+/// triangle, in texture coordinates; `share_of_triangle` is the cone's cross section over the
+/// triangle's area.
+LAMBENT_FN float cone_texels(vec2 uv_edge1, vec2 uv_edge2, vec2 uv_scale, int width, int height,
+                             float share_of_triangle) {
   float triangle_texels =
       0.5f * abs((uv_edge1.x * uv_edge2.y - uv_edge1.y * uv_edge2.x) * uv_scale.x * uv_scale.y) *
       float(width) * float(height);
-  float cone_texels = triangle_texels * share_of_triangle;
-  if (!(cone_texels > 1.0f)) return 0;
+  return triangle_texels * share_of_triangle;
+}
+
+/// The MIP level at which a cone covers about one texel: half the logarithm of cone_texels().
+LAMBENT_FN int mip_level(vec2 uv_edge1, vec2 uv_edge2, vec2 uv_scale, int width, int height,
+                         float share_of_triangle) {
+  float texels = cone_texels(uv_edge1, uv_edge2, uv_scale, width, height, share_of_triangle);
+  if (!(texels > 1.0f)) return 0;
   // round(log2(t) / 2) = floor(log2(2 t) / 2), and the exponent is the logarithm's floor
-  return (int(floatBitsToUint(2.0f * cone_texels) >> 23u) - 127) / 2;
+  return (int(floatBitsToUint(2.0f * texels) >> 23u) - 127) / 2;
 }
 
 /// The share of a triangle that a ray's cone covers, from which MIP levels are chosen.
@@ -47,13 +53,10 @@ LAMBENT_FN ConeShare full_resolution() {
 /// with an error of at most 0.05.
 LAMBENT_FN float blended_level(vec2 uv_edge1, vec2 uv_edge2, vec2 uv_scale, int width, int height,
                                float share_of_triangle) {
-  float triangle_texels =
-      0.5f * abs((uv_edge1.x * uv_edge2.y - uv_edge1.y * uv_edge2.x) * uv_scale.x * uv_scale.y) *
-      float(width) * float(height);
-  float cone_texels = triangle_texels * share_of_triangle;
-  if (!(cone_texels > 1.0f)) return 0.0f;
+  float texels = cone_texels(uv_edge1, uv_edge2, uv_scale, width, height, share_of_triangle);
+  if (!(texels > 1.0f)) return 0.0f;
   const uint mantissa_bits = 0x007FFFFFu;
-  uint bits = floatBitsToUint(cone_texels);
+  uint bits = floatBitsToUint(texels);
   float mantissa = uintBitsToFloat((bits & mantissa_bits) | kOneBits);
   return 0.5f * (float(int(bits >> 23u) - 127) + (mantissa - 1.0f));
 }

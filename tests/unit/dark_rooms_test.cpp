@@ -10,6 +10,7 @@
 #include "lambent/field.h"
 #include "lambent/world.h"
 #include "support/box_scenes.h"
+#include "support/hand_made.h"
 
 namespace lambent::dark_rooms_test {
 namespace {
@@ -18,10 +19,7 @@ using test::box_mesh;
 using test::scene_of;
 
 Light lamp_at(const glm::vec3& position_ws) {
-  Light light;
-  light.position_ws = position_ws;
-  light.intensity = glm::vec3(10.0f);
-  return light;
+  return test::point_light(glm::vec3(10.0f), position_ws);
 }
 
 /// Irradiance of a surface at a point with this normal.
@@ -41,11 +39,13 @@ FieldSettings few_probes() {
 
 /// A field over a scene that may be edited.
 struct Place {
-  explicit Place(Scene made) : scene(std::move(made)), world(scene), field(fresh()) { update(8); }
+  explicit Place(Scene made) : scene(std::move(made)), world(scene), field(fresh(world)) {
+    update(8);
+  }
   Place(const Place&) = delete;
   Place& operator=(const Place&) = delete;
 
-  IrradianceField fresh() const {
+  static IrradianceField fresh(const World& world) {
     return IrradianceField::make(few_probes(), open_bounds(world)).value();
   }
   void update(int times) {
@@ -55,7 +55,7 @@ struct Place {
   /// A field that has always known the scene as it is.
   IrradianceField settled() const {
     const World now(scene);
-    IrradianceField made = IrradianceField::make(few_probes(), open_bounds(now)).value();
+    IrradianceField made = fresh(now);
     for (int i = 0; i < 16; ++i) made.update(now);
     return made;
   }
@@ -77,7 +77,7 @@ Scene two_storeys() {
 
 TEST(DarkRoom, BesideALitOneStaysDark) {
   // The probes of what counted as solid matter were off, and lookups at its edges read those behind
-  // the ceiling: 5.3 at the ceiling where the lit room's own ceiling had 1.85
+  // the ceiling
   const Place place(two_storeys());
   EXPECT_GT(light_on(place.field, {0.3f, 3.1f, 0.2f}), 1.0f);
   EXPECT_LT(light_on(place.field, kDarkCeiling, {0, -1, 0}), 1e-3f);
@@ -96,14 +96,19 @@ TEST(DarkRoom, IsLitInTheUpdateAfterALampComesOn) {
   EXPECT_NEAR(light_on(place.field, kDarkFloor) / settled, 1.0f, 0.1f);
 }
 
-TEST(DarkRoom, IsDarkAgainOnceItsLampIsCarriedAway) {
-  Place place(two_storeys());
+/// Carries the lamp of two storeys down, and expects the upper one to be dark then.
+void expect_lamp_takes_its_light_along(Scene storeys) {
+  Place place(std::move(storeys));
   place.scene.lights[0].position_ws = {0.5f, 1.0f, 0.3f};
   place.apply_edits();
   place.update(5);
   EXPECT_LT(light_on(place.field, {0.3f, 3.1f, 0.2f}), 0.02f);
   EXPECT_NEAR(light_on(place.field, kDarkFloor) / light_on(place.settled(), kDarkFloor), 1.0f,
               0.1f);
+}
+
+TEST(DarkRoom, IsDarkAgainOnceItsLampIsCarriedAway) {
+  expect_lamp_takes_its_light_along(two_storeys());
 }
 
 // The door is the last instance; moved by this, it is open.
@@ -157,32 +162,16 @@ void expect_light_through_the_door(Place& place) {
 
 TEST(SolidMatter, OfAFineMeshThatIsWoundTheWrongWayIsNoRoom) {
   // Each of its triangles is seen too seldom to tell; all together they show their backs
-  Mesh ball;
-  constexpr int kRings = 48;
-  for (int v = 0; v <= kRings; ++v) {
-    for (int u = 0; u <= kRings; ++u) {
-      const float polar = 3.14159f * static_cast<float>(v) / kRings;
-      const float around = 6.28318f * static_cast<float>(u) / kRings;
-      ball.normals.emplace_back(std::sin(polar) * std::cos(around), std::cos(polar),
-                                std::sin(polar) * std::sin(around));
-      ball.positions.push_back(glm::vec3(0, 1.5f, 0) + 0.9f * ball.normals.back());
-    }
-  }
-  for (glm::uint v = 0; v < kRings; ++v) {
-    for (glm::uint u = 0; u < kRings; ++u) {
-      const glm::uint a = v * (kRings + 1) + u, b = a + kRings + 1;
-      ball.triangles.emplace_back(a, b, a + 1);
-      ball.triangles.emplace_back(a + 1, b, b + 1);
-    }
-  }
-  Scene scene = scene_of({box_mesh({-2, 0, -2}, {2, 3, 2}, /*inwards=*/true), ball});
+  Scene scene = scene_of({box_mesh({-2, 0, -2}, {2, 3, 2}, /*inwards=*/true)});
+  test::add(scene, test::sphere(0.9f, 48, 0),
+            glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 1.5f, 0.0f)));
   scene.lights = {lamp_at({1.5f, 2.5f, 1.5f})};
   const World world(scene);
-  IrradianceField field = IrradianceField::make(few_probes(), open_bounds(world)).value();
+  IrradianceField field = Place::fresh(world);
   const int off = field.update(world).states.off;
   for (glm::uvec3& triangle : scene.meshes[1].triangles) std::swap(triangle.y, triangle.z);
   const World turned(scene);
-  IrradianceField other = IrradianceField::make(few_probes(), open_bounds(turned)).value();
+  IrradianceField other = Place::fresh(turned);
   EXPECT_GT(off, 0);
   EXPECT_EQ(other.update(turned).states.off, off);
 }
@@ -229,13 +218,7 @@ TEST(DarkRoomOfTwoSidedMaterial, StaysARoomWhenItsLampIsCarriedAway) {
   // would be closed: the probes of its walls would be off, and it would glow
   Scene scene = two_storeys();
   scene.materials[0].double_sided = true;
-  Place place(std::move(scene));
-  place.scene.lights[0].position_ws = {0.5f, 1.0f, 0.3f};
-  place.apply_edits();
-  place.update(5);
-  EXPECT_LT(light_on(place.field, {0.3f, 3.1f, 0.2f}), 0.02f);
-  EXPECT_NEAR(light_on(place.field, kDarkFloor) / light_on(place.settled(), kDarkFloor), 1.0f,
-              0.1f);
+  expect_lamp_takes_its_light_along(std::move(scene));
 }
 
 TEST(DarkRoomOfTwoSidedMaterial, IsFoundAgainAfterAReset) {
@@ -254,14 +237,7 @@ TEST(DarkRoomOfTwoSidedMaterial, IsLitTwoUpdatesAfterItsCeilingGlows) {
   Scene scene = two_storeys();
   scene.materials[0].double_sided = true;
   scene.materials.push_back(scene.materials[0]);
-  Mesh panel;
-  panel.positions = {
-      {-0.5f, 2.9f, -0.5f}, {0.5f, 2.9f, -0.5f}, {0.5f, 2.9f, 0.5f}, {-0.5f, 2.9f, 0.5f}};
-  panel.normals.assign(4, glm::vec3(0, -1, 0));
-  panel.triangles = {{0, 1, 2}, {0, 2, 3}};
-  panel.material = 1;
-  scene.meshes.push_back(panel);
-  scene.instances.emplace_back().mesh = 2;
+  test::add(scene, test::quad({-0.5f, 2.9f, -0.5f}, {1, 0, 0}, {0, 0, 1}, 1));
   Place place(std::move(scene));
   place.scene.materials[1].emission = glm::vec3(10.0f);
   place.apply_edits();
@@ -302,14 +278,10 @@ TEST(HistoryShare, IsThatOfTheLightThatWasThere) {
 
 TEST(ProbesInAPlane, LightBothSidesOfASheet) {
   // All probes of the layer stayed in the sheet, saw nothing from there, and both sides were black
-  Mesh sheet;
-  sheet.positions = {{0, 0, -1}, {0, 2, -1}, {0, 2, 1}, {0, 0, 1}};
-  sheet.normals.assign(4, glm::vec3(1, 0, 0));
-  sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
-  Scene scene = scene_of({box_mesh({-2, 0, -2}, {2, 3, 2}, /*inwards=*/true), sheet});
+  Scene scene = scene_of({box_mesh({-2, 0, -2}, {2, 3, 2}, /*inwards=*/true)});
   scene.materials.push_back(scene.materials[0]);
   scene.materials[1].double_sided = true;
-  scene.meshes[1].material = 1;
+  test::add(scene, test::quad({0, 0, -1}, {0, 2, 0}, {0, 0, 2}, 1));
   scene.lights = {lamp_at({1.0f, 2.0f, 0.3f})};
   Place place(scene);
   place.update(24);
@@ -330,11 +302,7 @@ TEST(ProbesInAPlane, LightBothSidesOfASheet) {
 
 TEST(ProbesInAPlane, LightGroundUnderASky) {
   // A plain at a height of 0, a layer of probes at the same height: it was black
-  Mesh ground;
-  ground.positions = {{-5, 0, -5}, {-5, 0, 5}, {5, 0, 5}, {5, 0, -5}};
-  ground.normals.assign(4, glm::vec3(0, 1, 0));
-  ground.triangles = {{0, 1, 2}, {0, 2, 3}};
-  Scene scene = scene_of({ground});
+  Scene scene = scene_of({test::quad({-5, 0, -5}, {0, 0, 10}, {10, 0, 0}, 0)});
   scene.environment.radiance = glm::vec3(1.0f);
   Place place(std::move(scene));
   ASSERT_EQ(place.field.grids()[0].count.y % 2, 1);

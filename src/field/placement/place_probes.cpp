@@ -30,10 +30,13 @@ constexpr int kRestUpdates = 8;
 constexpr float kFar = 1e15f;
 const Bounds kEverywhere{vec3(-kFar), vec3(kFar)};
 
-/// Whether something moved.
-bool moves(std::span<const WorldChanges> changes) {
-  return std::any_of(changes.begin(), changes.end(),
-                     [](const WorldChanges& change) { return !change.moved.empty(); });
+/// The boxes of all that moved.
+std::vector<Bounds> moved_boxes(std::span<const WorldChanges> changes) {
+  std::vector<Bounds> moved;
+  for (const WorldChanges& change : changes) {
+    moved.insert(moved.end(), change.moved.begin(), change.moved.end());
+  }
+  return moved;
 }
 
 /// Whether a change makes a light or an emissive surface shine in a closed region.
@@ -56,20 +59,9 @@ bool lights_closed_region(const World& world, std::span<const WorldChanges> chan
   return !points.empty() && lights_closed_places(world, sides.open_space, points);
 }
 
-/// Whether a movement opens a way into a closed region.
-bool opens_closed_region(const World& world, std::span<const WorldChanges> changes,
-                         SolidSides& sides) {
-  std::vector<Bounds> moved;
-  for (const WorldChanges& change : changes) {
-    moved.insert(moved.end(), change.moved.begin(), change.moved.end());
-  }
-  return !moved.empty() && opens_closed_region(world, moved, sides.open_space);
-}
-
 }  // namespace
 
-/// Lets the probes whose places were closed and are open now start anew, and forgets the
-/// corrections around them: they hold light of when it was dark there.
+/// Also forgets the corrections around these probes: all hold light of when it was dark there.
 void IrradianceField::State::reset_opened_probes(std::span<const OpenPlaces> before,
                                                  std::uint64_t revision) {
   // The last grids of places are those of the volumes
@@ -87,16 +79,17 @@ void IrradianceField::State::reset_opened_probes(std::span<const OpenPlaces> bef
   backend->forget_corrections(kept);
 }
 
-/// Finds what is solid where that may differ from what was found last. Returns whether it did.
 bool IrradianceField::State::find_solid_sides(const World& world) {
   const auto changes = world.changes_since(placement.solid_revision);
   placement.solid_revision = world.revision();
   const bool made = data.solid_sides.fits(world.scene());
   SolidSearch& search = placement.solid;
-  if (!changes || moves(*changes)) search.moved = true;
-  search.needed = search.needed || !made || !changes ||
-                  lights_closed_region(world, *changes, data.solid_sides) ||
-                  opens_closed_region(world, *changes, data.solid_sides);
+  const std::vector<Bounds> moved = changes ? moved_boxes(*changes) : std::vector<Bounds>();
+  search.moved |= !changes || !moved.empty();
+  search.needed =
+      search.needed || !made || !changes ||
+      lights_closed_region(world, *changes, data.solid_sides) ||
+      (!moved.empty() && opens_closed_region(world, moved, data.solid_sides.open_space));
   // After a search that found nothing new, wait: lamps inside of things may flicker or move in
   // every update
   const bool waits = made && search.in_vain && updates - search.update < kRestUpdates;

@@ -30,6 +30,11 @@ constexpr float kMaxWallSlope = 0.5f;
 // or a door.
 constexpr float kMinEnclosed = 0.75f;
 
+// Share of a closed region's hits that are on walls if it is a room, as large as what makes a
+// surface one-sided (find_solid_sides.cpp). The others are seen through cracks, or are on things in
+// the room that are wound the wrong way.
+constexpr float kLeastWalls = 0.9f;
+
 // Number of points on emissive surfaces, chosen by their power, that rays leave to either side, and
 // of these rays: some leave a shade, however deep it is. What is halfway along a ray is lit.
 constexpr int kEmitterPoints = 64, kEmitterRays = 4;
@@ -70,6 +75,25 @@ void Places::keep_open(const OpenPlaces& before) {
   for (std::size_t place = 0; place < count(); ++place) {
     if (2 * open[region_[place]] > all[region_[place]]) open_[place] = 1;
   }
+}
+
+bool Places::open_rooms(const std::function<bool(const Hit&)>& is_wall) {
+  std::vector<std::size_t> met(regions_, 0), walls(regions_, 0);
+  for (std::size_t i = 0; i < hits_.size(); ++i) {
+    if (hits_[i].missed() || open_[i / kRays] != 0) continue;
+    const std::uint32_t region = region_[i / kRays];
+    ++met[region];
+    walls[region] += is_wall(hits_[i]) ? 1 : 0;
+  }
+  bool any = false;
+  for (std::size_t place = 0; place < count(); ++place) {
+    const auto hits = static_cast<float>(met[region_[place]]);
+    const auto on_walls = static_cast<float>(walls[region_[place]]);
+    if (hits == 0.0f || on_walls < kLeastWalls * hits) continue;
+    open_[place] = 1;
+    any = true;
+  }
+  return any;
 }
 
 bool Places::any_open() const {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -35,25 +36,7 @@ class Places {
   void keep_open(const OpenPlaces& before);
   /// Opens the regions of which nearly all rays hit walls, `is_wall(hit)`: dark rooms. Returns
   /// whether there are any.
-  template <class IsWall>
-  bool open_rooms(IsWall is_wall) {
-    std::vector<std::size_t> met(regions_, 0), walls(regions_, 0);
-    for (std::size_t i = 0; i < hits_.size(); ++i) {
-      if (hits_[i].missed() || open_[i / kRays] != 0) continue;
-      const std::uint32_t region = region_[i / kRays];
-      ++met[region];
-      walls[region] += is_wall(hits_[i]) ? 1 : 0;
-    }
-    bool any = false;
-    for (std::size_t place = 0; place < count(); ++place) {
-      const std::uint32_t region = region_[place];
-      if (met[region] == 0 || walls[region] < kLeastWalls * static_cast<float>(met[region]))
-        continue;
-      open_[place] = 1;
-      any = true;
-    }
-    return any;
-  }
+  bool open_rooms(const std::function<bool(const Hit&)>& is_wall);
 
   /// Calls `see` with all hits of the chosen places.
   template <class See>
@@ -72,9 +55,6 @@ class Places {
  private:
   // Rays from each place.
   static constexpr std::size_t kRays = 32;
-  // Share of a region's rays that hit walls if it is a room. The others pass through cracks, or hit
-  // things in the room that are wound the wrong way.
-  static constexpr float kLeastWalls = 0.9f;
 
   std::size_t count() const;
   std::size_t stride(int axis) const;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raytracing/places/wall_heading.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -54,6 +53,7 @@ glm::mat3 axes_of_walls(const Scene& scene) {
       best = i;
     }
   }
+  // Within two degrees of the axes, a turned grid would gain nothing
   if (best <= 1 || best >= kHeadings - 2 || most < kMostWalls * all) return glm::mat3(1.0f);
   const float angle = (static_cast<float>(best) + 0.5f) / kHeadings * 0.5f * kPi;
   const float c = std::cos(angle), s = std::sin(angle);
@@ -63,11 +63,10 @@ glm::mat3 axes_of_walls(const Scene& scene) {
 Bounds bounds_along(const Scene& scene, const glm::mat3& axes) {
   Bounds bounds;
   for (const Instance& instance : scene.instances) {
-    const glm::mat3 along = glm::transpose(axes) * glm::mat3(instance.world_from_object);
-    const glm::vec3 origin = glm::vec3(instance.world_from_object[3]) * axes;
-    for (const glm::vec3& position : scene.meshes[instance.mesh].positions) {
-      bounds.add(origin + along * position);
-    }
+    Instance turned;
+    turned.mesh = instance.mesh;
+    turned.world_from_object = glm::mat4(glm::transpose(axes)) * instance.world_from_object;
+    bounds.add(instance_bounds(scene, turned));
   }
   return bounds;
 }
