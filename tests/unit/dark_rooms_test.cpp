@@ -188,7 +188,7 @@ TEST(DarkRoom, IsLitThroughADoorThatOpens) {
 }
 
 TEST(DarkRoom, DoesNotFlashWhenItsDoorOpensAgain) {
-  // Its light was eight times too bright: all of its probes kept a history ratio of up to 2
+  // Its light was 5.1 times what is right while what others reflect counted as its own light
   Scene scene = rooms_with_a_door();
   scene.instances.back().world_from_object[3] += glm::vec4(kToOpen, 0.0f);
   Place place(std::move(scene));

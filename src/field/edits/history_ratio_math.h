@@ -25,7 +25,7 @@ const float kMinHistoryRatio = 1e-5f;
 const float kMaxDirectGrowth = 4.0f;
 // Probes that receive hardly any direct light are lit by what others reflect, so that this share of
 // the mean probe's counts as their own. In a dark room it counts less, in proportion to what they
-// hold: with this share, light that an opened door let in was 5.7 times too bright there.
+// hold: with this share, light that an opened door let in was 5.1 times too bright there.
 const float kReflectedShare = 0.1f;
 
 // A probe whose light an edit changes by less than this fraction keeps its old light and its
