@@ -15,6 +15,7 @@
 #include "lambent/commands.h"
 #include "lambent/connect.h"
 #include "lambent/console.h"
+#include "lambent/fog_option.h"
 #include "lambent/help.h"
 #include "lambent/image.h"
 #include "lambent/input.h"
@@ -153,8 +154,21 @@ Expected<void> receive_frames(const ConnectOptions& options, stream::Client& cli
   return {};
 }
 
+Expected<void> check_connect_output(const ConnectOptions& options) {
+  if (options.scene.file.empty()) return check_output(options.output, {".png"});
+  if (const auto fine = check_output(options.output, {".png", ".jpg", ".jpeg", ".exr"}); !fine) {
+    return fine;
+  }
+  if (options.layers && !has_ending(options.output, ".exr")) {
+    return fail("--layers", "", "go into an .exr alone: add -o FILE.exr");
+  }
+  const auto exposure = parse_exposure(options.exposure);
+  if (!exposure) return tl::unexpected(exposure.error());
+  return {};
+}
+
 Expected<void> connect(const ConnectOptions& options) {
-  if (const auto fine = check_output(options.output, {".png"}); !fine) return fine;
+  if (const auto fine = check_connect_output(options); !fine) return fine;
   CommandFiles files;
   files.reads(options.token_file, "--token-file");
   files.reads_scene(options.scene.file);
@@ -214,7 +228,9 @@ void add_connect(CLI::App& app, Run& run) {
                    "The server: a name or address, a port after a colon, https:// in front for TLS")
       ->required();
   command->option_defaults()->group(kMainGroup);
-  command->add_option("-o,--output", o->output, "The .png file to write")
+  command
+      ->add_option("-o,--output", o->output,
+                   "The .png file to write; with --scene also .jpg or .exr")
       ->required()
       ->check(file_name())
       ->type_name("FILE");
@@ -269,7 +285,21 @@ void add_connect(CLI::App& app, Run& run) {
       ->check(number(0.0, kMaxTime))
       ->needs("--scene")
       ->type_name("M");
+  command->add_option("--exposure", o->exposure, "In stops, or auto (the first picture decides)")
+      ->needs("--scene")
+      ->capture_default_str()
+      ->type_name("E");
+  command->add_option("--tone-map", o->tone_map, "aces, neutral or linear")
+      ->check(one_of({"aces", "neutral", "linear"}))
+      ->needs("--scene")
+      ->capture_default_str()
+      ->type_name("T");
+  command->add_flag("--layers", o->layers, "Write every layer of the frame, .exr only")
+      ->needs("--scene");
+  command->option_defaults()->group("What is there, in which light: as the server has it");
   add_light_options(*command, o->scene.light);
+  add_material_options(*command, o->scene);
+  add_fog_option(*command, o->scene.fog);
   set_examples(*command, kConnectExamples);
   command->callback([o, &run] { run = [o] { return connect(*o); }; });
 }

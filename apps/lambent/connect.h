@@ -25,6 +25,9 @@ struct ConnectOptions {
   int frames = 1;
   SceneOptions scene;  // with an empty scene, the server sends pictures
   std::string quality = "interactive";
+  std::string exposure = "auto";
+  std::string tone_map = "aces";
+  bool layers = false;
   std::string codec = "lambent";  // of light
   float interest = 0.0f;  // radius within which light comes with each update [m]; 0: all light
 };

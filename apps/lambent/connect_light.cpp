@@ -13,6 +13,7 @@
 #include "lambent/light_from.h"
 #include "lambent/parse.h"
 #include "lambent/quality.h"
+#include "lambent/render_output.h"
 #include "lambent/renderer.h"
 #include "lambent/step.h"
 #include "lambent/words.h"
@@ -43,13 +44,15 @@ Expected<void> wait_for_light(stream::Client& client, stream::LitScene& lit,
   return fail("", "", "no light came in time", Error::Kind::failed);
 }
 
-Expected<FrameSettings> settings_of(const ConnectOptions& options) {
+/// The options of `lambent render` that give such pictures.
+RenderOptions render_options(const ConnectOptions& options) {
   RenderOptions render;
   render.quality = options.quality;
   render.frames = options.frames > 1 ? options.frames : 0;
-  const auto size = parse_size("--size", options.size);
-  if (!size) return tl::unexpected(size.error());
-  return frame_settings(render, *size);
+  render.exposure = options.exposure;
+  render.tone_map = options.tone_map;
+  render.layers = options.layers;
+  return render;
 }
 
 }  // namespace
@@ -69,8 +72,10 @@ Expected<void> render_by_stream(const ConnectOptions& options,
   if (!light) return tl::unexpected(light.error());
   const auto same = check_same_scene("HOST", options.server, joined.welcome, scene);
   if (!same) return same;
-  auto frame = settings_of(options);
-  if (!frame) return tl::unexpected(frame.error());
+  const RenderOptions render = render_options(options);
+  const auto size = parse_size("--size", options.size);
+  if (!size) return tl::unexpected(size.error());
+  FrameSettings frame = frame_settings(render, *size);
 
   stream::LitScene lit(scene, world);
   if (options.codec == "h265") {
@@ -86,7 +91,7 @@ Expected<void> render_by_stream(const ConnectOptions& options,
     if (!sent) return sent;
   }
   std::optional<Renderer> renderer;
-  std::optional<float> stops;
+  std::optional<float> stops = *parse_exposure(options.exposure);
   std::vector<std::string> written;
   RenderedFrame picture;
   const InterruptGuard guard;
@@ -100,21 +105,22 @@ Expected<void> render_by_stream(const ConnectOptions& options,
     if (!stops && shows_unlit(world.scene())) {
       // First find the exposure without unlit surfaces; these then show their colours at that
       // exposure
-      frame->unlit_radiance = 0.0f;
-      if (const auto done = renderer->render(from, *frame, picture); !done) return done;
+      frame.unlit_radiance = 0.0f;
+      if (const auto done = renderer->render(from, frame, picture); !done) return done;
       stops = display_stops(picture.image);
-      frame->unlit_radiance = radiance_of_colors(ToneMap::aces, *stops);
     }
-    if (const auto done = renderer->render(from, *frame, picture); !done) return done;
-    const Image& linear = *picture.image.find("");
-    if (!stops) stops = display_stops(picture.image);
+    if (stops && shows_unlit(world.scene())) {
+      frame.unlit_radiance = radiance_of_colors(*tone_map_from_name(options.tone_map), *stops);
+    }
+    if (const auto done = renderer->render(from, frame, picture); !done) return done;
     const std::string path = name_of_frame(options, written.size());
-    const auto done = write_png(path, display_image(linear, ToneMap::aces, *stops));
-    if (!done) return done;
+    PictureFile file(render, path, *size, stops);
+    if (const auto done = file.write(picture.image); !done) return done;
+    if (const auto done = file.finish(); !done) return done;
     written.push_back(path);
   }
   if (written.empty()) return fail("", "", "was interrupted", Error::Kind::failed);
-  tell_written(written, pixels_text(frame->width, frame->height), exposure_text(*stops));
+  tell_written(written, pixels_text(size->x, size->y), stops ? exposure_text(*stops) : "");
   return {};
 }
 

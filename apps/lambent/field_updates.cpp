@@ -125,6 +125,7 @@ FieldProgress run_updates(const World& world, int before, const UpdateLimits& li
   stats["probes_invalidated"] = sum.probes_invalidated;
   stats["probes_changed"] = sum.probes_changed;
   stats["probes_recycled"] = sum.probes_recycled;
+  stats["probes_stale"] = last.probes_stale;
   stats["probes_off"] = last.states.off;
   stats["probes_sleeping"] = last.states.sleeping;
   stats["probes_newly_awake"] = last.states.newly_awake;

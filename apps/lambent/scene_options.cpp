@@ -50,17 +50,21 @@ Expected<Camera> with_asked_fov(const SceneOptions& options, Camera camera) {
 
 }  // namespace
 
-void add_scene_options(CLI::App& command, SceneOptions& o) {
-  command.add_option("SCENE", o.file, "A .gltf or .glb file, or the name of a built-in scene")
-      ->required();
-  command.option_defaults()->group("What is there, in which light");
-  add_light_options(command, o.light);
+void add_material_options(CLI::App& command, SceneOptions& o) {
   command
       .add_option("--materials", o.materials, "gltf, or lambert: exact Lambert, nothing specular")
       ->check(one_of({"gltf", "lambert"}))
       ->capture_default_str()
       ->type_name("M");
   command.add_flag("--no-normal-maps", o.no_normal_maps, "Ignore normal maps");
+}
+
+void add_scene_options(CLI::App& command, SceneOptions& o) {
+  command.add_option("SCENE", o.file, "A .gltf or .glb file, or the name of a built-in scene")
+      ->required();
+  command.option_defaults()->group("What is there, in which light");
+  add_light_options(command, o.light);
+  add_material_options(command, o);
 }
 
 void add_scene_and_view_options(CLI::App& command, SceneOptions& o) {

@@ -33,6 +33,8 @@ struct SceneOptions {
   bool keep_sky_dome = false;
 };
 
+/// Adds the options of what is read of the materials.
+void add_material_options(CLI::App& command, SceneOptions& options);
 /// Adds the options of scene and light, without those of the view.
 void add_scene_options(CLI::App& command, SceneOptions& options);
 /// Adds the options of scene, light and view.

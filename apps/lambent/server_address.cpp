@@ -27,7 +27,13 @@ Expected<void> parse_server_address(const std::string& option, const std::string
   } else if (text.starts_with(http)) {
     text = text.substr(http.size());
   }
+  if (text.find("://") != std::string::npos) {
+    return fail(option, address, "begins with neither http:// nor https:// nor nats://");
+  }
   if (text.ends_with("/")) text.pop_back();
+  if (text.find('/') != std::string::npos) {
+    return fail(option, address, "has a path: name the host and its port alone");
+  }
   const std::size_t colon = text.rfind(':');
   // Colons within brackets belong to an IPv6 address
   if (colon != std::string::npos && text.find(']', colon) == std::string::npos) {
@@ -49,6 +55,7 @@ Expected<std::string> read_token(const std::string& path) {
   std::string token;
   if (path.empty()) return token;
   std::ifstream file(path);
+  if (!file) return fail(path, "", "no such file, or none that may be read");
   if (!(file >> token) || token.size() > stream::kMaxTokenBytes) {
     return fail(path, "", "holds no token");
   }

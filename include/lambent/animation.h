@@ -157,4 +157,8 @@ float duration(const Animation& animation);
 /// runs out.
 void animate(Scene& scene, int animation, float time_s);
 
+/// Gives every property that some animation of the scene drives its rest value. Otherwise like
+/// animate().
+void rest(Scene& scene);
+
 }  // namespace lambent

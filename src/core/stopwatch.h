@@ -9,15 +9,22 @@ namespace lambent {
 class Stopwatch {
  public:
   /// Milliseconds since construction or the last lap.
+  double ms() const { return ms_until(Clock::now()); }
+  /// ms(), and starts a lap.
   double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double ms = std::chrono::duration<double, std::milli>(now - start_).count();
+    const Clock::time_point now = Clock::now();
+    const double ms = ms_until(now);
     start_ = now;
     return ms;
   }
 
  private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  using Clock = std::chrono::steady_clock;
+  double ms_until(Clock::time_point now) const {
+    return std::chrono::duration<double, std::milli>(now - start_).count();
+  }
+
+  Clock::time_point start_ = Clock::now();
 };
 
 }  // namespace lambent

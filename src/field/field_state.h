@@ -46,12 +46,12 @@ struct IrradianceField::State {
   /// surfels are discarded, and traced again later.
   void move_to(const World& world, UpdateStatistics& statistics);
   std::vector<int> all_probes() const;
-  std::uint64_t ray_budget(const UpdateRequest& request) const;
   void end_warm_up(UpdateStatistics& statistics);
   void weigh_importance(std::span<const FieldQuery> seen);
-  std::uint64_t edit_budget(const UpdateRequest& request) const;
+  bool has_budget(const UpdateRequest& request) const;
+  EditBudget edit_budget(const UpdateRequest& request, double spent_ms) const;
   std::uint64_t budget_after_edits(const UpdateRequest& request, std::uint64_t spent,
-                                   double spent_ms) const;
+                                   double spent_ms, bool edited) const;
   std::vector<TraceGroup> schedule(std::uint64_t budget, const std::optional<vec3>& viewer_ws);
 
   /// Seed of the dither with which this update stores its results.
@@ -94,8 +94,8 @@ struct IrradianceField::State {
   std::uint64_t update_cell_visibility(const World& world, std::span<const int> probes);
 
   /// Brings stale probes up to date with the world, and solves for the light that results. Spends
-  /// about `ray_budget` rays (0: no bound), on important probes or those near the viewer first.
-  EditProgress apply_scene_edits(const World& world, std::uint64_t ray_budget,
+  /// about the budget, on important probes or those near the viewer first.
+  EditProgress apply_scene_edits(const World& world, EditBudget budget,
                                  const std::optional<vec3>& viewer_ws,
                                  UpdateStatistics& statistics);
   /// Finds the stale probes. Those that cannot be brought up to date start their average again.
@@ -104,9 +104,9 @@ struct IrradianceField::State {
   /// world.
   void begin_edits(std::uint64_t revision, std::span<const int> traced);
   /// Brings waiting probes up to date until the budget is spent, and removes them from
-  /// `stale.waiting`.
-  void apply_edits_in_slices(const World& world, std::uint64_t ray_budget, StaleProbes& stale,
-                             UpdateStatistics& statistics);
+  /// `stale.waiting`. Returns the time that it took [ms].
+  double apply_edits_in_slices(const World& world, const EditBudget& budget, StaleProbes& stale,
+                               UpdateStatistics& statistics);
   /// Brings one slice of the stale probes up to date. `all` are all traced probes. Reduces their
   /// history ratios, and returns the history_share() of each.
   std::vector<float> apply_edits_to_slice(const World& world, std::span<const WorldChanges> changes,
@@ -123,7 +123,7 @@ struct IrradianceField::State {
   int store_edited_light(std::span<const int> probes, const WorkingIrradiance& before,
                          const SolveResult& solved, const WorkingIrradiance& history_ratio);
   /// Brings some of the stale sleeping probes up to date.
-  void apply_edits_to_sleeping(const World& world, std::uint64_t ray_budget,
+  void apply_edits_to_sleeping(const World& world, const EditBudget& budget,
                                std::span<const int> all, UpdateStatistics& statistics);
   /// Whether an update that traces these probes learns corrections of lookups.
   bool learns_corrections(std::span<const TraceGroup> groups) const;

@@ -58,6 +58,16 @@ void light_probes(FieldPasses& passes) {
   solve_light(passes);
 }
 
+/// The time of the passes that take longer the more rays an update traces [ms].
+double ms_of_rays(const UpdateStatistics& statistics) {
+  double ms = 0.0;
+  for (const char* pass : {field_pass::kTrace, field_pass::kShade, field_pass::kBlendDistances,
+                           field_pass::kCorrections, field_pass::kLookups}) {
+    ms += statistics.ms(pass);
+  }
+  return ms;
+}
+
 }  // namespace
 
 void update_probes(FieldPasses& passes) {
@@ -225,32 +235,34 @@ bool IrradianceField::State::place_all(const World& world, const std::optional<v
   return placed;
 }
 
-/// Computes how many rays an update may trace; 0 means any number.
-std::uint64_t IrradianceField::State::ray_budget(const UpdateRequest& request) const {
-  // An exact number of bounces is carried through all probes at once
-  if (settings.max_bounces >= 0) return 0;
-  if (!(request.time_budget_ms > 0.0)) return request.ray_budget;
-  const std::uint64_t learned = scheduling.ray_cost.rays_within(request.time_budget_ms);
-  return request.ray_budget == 0 ? learned : std::min(request.ray_budget, learned);
+/// Whether an update has a budget. An exact number of bounces is carried through all probes at
+/// once, whatever the budget.
+bool IrradianceField::State::has_budget(const UpdateRequest& request) const {
+  return settings.max_bounces < 0 && (request.ray_budget > 0 || request.time_budget_ms > 0.0);
 }
 
-/// Computes how many rays edits may take; 0 means any number. Edits have a cost of their own, since
-/// the cost of new rays includes that of learning corrections.
-std::uint64_t IrradianceField::State::edit_budget(const UpdateRequest& request) const {
-  if (settings.max_bounces >= 0) return 0;
-  if (!(request.time_budget_ms > 0.0)) return request.ray_budget;
-  const std::uint64_t learned = scheduling.edit_cost.rays_within(request.time_budget_ms);
-  return request.ray_budget == 0 ? learned : std::min(request.ray_budget, learned);
+/// Computes what edits may take of an update that has taken `spent_ms` so far.
+EditBudget IrradianceField::State::edit_budget(const UpdateRequest& request,
+                                               double spent_ms) const {
+  EditBudget budget = kUnboundedEdits;
+  if (!has_budget(request)) return budget;
+  if (request.ray_budget > 0) budget.rays = request.ray_budget;
+  if (request.time_budget_ms > 0.0) {
+    budget.ms = scheduling.edit_cost.time_left(request.time_budget_ms, spent_ms);
+  }
+  return budget;
 }
 
-/// Computes how many rays are left of a budget after edits have taken `spent` rays and `spent_ms`.
+/// Computes how many rays are left of a budget when the update has taken `spent` rays and
+/// `spent_ms`, with edits or without.
 std::uint64_t IrradianceField::State::budget_after_edits(const UpdateRequest& request,
-                                                         std::uint64_t spent,
-                                                         double spent_ms) const {
+                                                         std::uint64_t spent, double spent_ms,
+                                                         bool edited) const {
   std::uint64_t left = std::numeric_limits<std::uint64_t>::max();
   if (request.ray_budget != 0) left = request.ray_budget - std::min(request.ray_budget, spent);
-  if (!(request.time_budget_ms > 0.0)) return left;
-  const double left_ms = request.time_budget_ms - spent_ms;
+  const double budget_ms = request.time_budget_ms;
+  if (!(budget_ms > 0.0)) return left;
+  const double left_ms = edited ? budget_ms - spent_ms : time_for_work(budget_ms, spent_ms);
   return left_ms > 0.0 ? std::min(left, scheduling.ray_cost.rays_within(left_ms)) : 0;
 }
 
@@ -288,43 +300,37 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   UpdateStatistics statistics;
   Stopwatch whole;
   PassTimer timer(statistics.passes);
-  const std::uint64_t budget = s.ray_budget(request);
+  const bool bounded = s.has_budget(request);
   std::optional<vec3> viewer_ws = request.viewer_ws;
   if (viewer_ws && !is_finite(*viewer_ws)) viewer_ws.reset();
 
   s.move_to(world, statistics);
-  // The time that placing probes takes says nothing of the cost of rays
+  // A budget does not include the time that placing probes takes
   if (s.place_all(world, viewer_ws, statistics)) whole.lap();
   timer.finish(field_pass::kPlacement);
 
   s.scheduling.importance.clear();
-  if (budget > 0 && !request.seen.empty()) {
+  if (bounded && !request.seen.empty()) {
     s.weigh_importance(request.seen);
     timer.finish(field_pass::kSchedule);
   }
 
-  const double before_edits_ms = whole.lap();
   const EditProgress progress =
-      s.apply_scene_edits(world, s.edit_budget(request), viewer_ws, statistics);
+      s.apply_scene_edits(world, s.edit_budget(request, whole.ms()), viewer_ws, statistics);
   timer.skip();
-  const double edits_ms = whole.lap();
-  const std::uint64_t spent = statistics.probe_rays + statistics.shadow_rays;
   const std::uint64_t edit_rays = statistics.probe_rays;
-  if (progress != EditProgress::none) {
-    s.scheduling.edit_cost.learn(edit_work(statistics), edits_ms);
-  }
   s.forget_corrections(progress);
-  const double forgotten_ms = whole.lap();
-  // Without edits, the time before the rays are traced is part of their cost
-  const double spent_ms =
-      progress == EditProgress::none ? 0.0 : before_edits_ms + edits_ms + forgotten_ms;
-  const std::uint64_t left = budget == 0 ? 0 : s.budget_after_edits(request, spent, spent_ms);
+  const std::uint64_t left = bounded
+                                 ? s.budget_after_edits(request, edit_rays + statistics.shadow_rays,
+                                                        whole.ms(), progress != EditProgress::none)
+                                 : 0;
   // New rays are not traced while stale probes are left: new surfels could no longer be compared
   // with those from before the edits
-  const bool trace =
-      progress != EditProgress::partial &&
-      (budget == 0 ? progress == EditProgress::none || s.edits.applied_last : left > 0);
+  const bool trace = progress != EditProgress::partial &&
+                     (bounded ? left > 0 : progress == EditProgress::none || s.edits.applied_last);
   s.edits.applied_last = progress != EditProgress::none && !trace;
+  whole.lap();
+  const double earlier_ms = ms_of_rays(statistics);
   if (trace) {
     std::vector<TraceGroup> groups = s.schedule(left, viewer_ws);
     timer.finish(field_pass::kSchedule);
@@ -335,10 +341,11 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   s.end_warm_up(statistics);
   ++s.updates;
   statistics.states = s.scheduling.scheduler.states();
-  // Learn the cost of a probe ray, with its shadow rays and everything else included
-  if (trace) {
-    const double rays_ms = whole.lap() + (progress == EditProgress::none ? before_edits_ms : 0.0);
-    s.scheduling.ray_cost.learn(statistics.probe_rays - edit_rays, rays_ms);
+  // Where fewer rays than the budget allows are needed, they say little of the cost of many
+  const std::uint64_t new_rays = statistics.probe_rays - edit_rays;
+  if (trace && 2 * new_rays >= left) {
+    const double rays_ms = ms_of_rays(statistics) - earlier_ms;
+    s.scheduling.ray_cost.learn(new_rays, rays_ms, whole.ms() - rays_ms);
   }
   return statistics;
 }

@@ -36,6 +36,18 @@ constexpr int kMaxPlacesAlongAxis = 64;
 // size [m]: objects can only be seen from outside.
 constexpr float kAround = 0.1f, kLeastAround = 1e-3f;
 
+/// Opens the regions of each grid that lead to open places of another one, over however many grids.
+void open_across(std::span<Places> places) {
+  for (bool any = true; any;) {
+    any = false;
+    for (Places& some : places) {
+      for (const Places& others : places) {
+        if (&others != &some) any |= some.open_towards(others);
+      }
+    }
+  }
+}
+
 /// Number of times that open space saw the front and the back of a triangle or an instance.
 struct Sightings {
   std::uint32_t front = 0, back = 0;
@@ -188,6 +200,7 @@ SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids
   for (std::size_t i = 0; i < std::min(places.size(), before.size()); ++i) {
     places[i].keep_open(before[i]);
   }
+  open_across(places);
   // A field in which no place is open was not put into solid matter: its lamps are off
   const std::span<const Places> asked = std::span(places).subspan(of_scene);
   const bool some_open =

@@ -291,6 +291,28 @@ TEST(Relay, LightOfAServerThatStartsAnewReachesClientsOfLight) {
   EXPECT_TRUE(client.follow(last + ClientLink::kMostUpdatesUnderWay + 10));
 }
 
+TEST(LitScene, IsAtRestWhereItsServerDoesNotPlay) {
+  Scene scene = scenes::make("cornell-spot").value();
+  const glm::vec3 place = scene.lights[0].position_ws;
+  scene.rig.nodes.emplace_back().translation = place;
+  RigLight& lamp_of_rig = scene.rig.lights.emplace_back();
+  lamp_of_rig.node = 0;
+  Channel& channel = scene.animations.emplace_back().channels.emplace_back();
+  channel.target = Channel::Target::node_translation;
+  channel.curve = {Interpolation::linear, 3, {0.0f, 1.0f}, {0, 0, 0, 0, 1, 0}};
+  ASSERT_TRUE(validate(scene));
+  World world(scene);
+  LitScene lit(scene, world);
+  LightPayload light;
+  light.time_s = 1.0f;
+  ASSERT_TRUE(lit.follow(Message(light)));
+  EXPECT_EQ(scene.lights[0].position_ws, glm::vec3(0, 1, 0));
+  // A server that starts anew, and does not play
+  light.time_s = -1.0f;
+  ASSERT_TRUE(lit.follow(Message(light)));
+  EXPECT_EQ(scene.lights[0].position_ws, place);
+}
+
 TEST(Relay, IsKnownToItsServerByATokenAndChecksItsCertificate) {
   const std::string look = "looking-looking-looking";
   const test::TemporaryDirectory directory;

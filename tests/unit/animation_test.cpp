@@ -180,6 +180,21 @@ TEST(Animate, GoesToTheRestValueOfWhatAnotherAnimationDrives) {
   EXPECT_EQ(glm::vec3(scene.instances[0].world_from_object[3]), glm::vec3(10, 0, 0));
 }
 
+TEST(Animate, GoesBackToRest) {
+  Scene scene = rigged();
+  scene.rig.instances.push_back({0, 0, glm::mat4(1.0f)});
+  scene.rig.lights.push_back({0, -1, glm::vec3(1.0f), 2.0f});
+  scene.animations[0].channels = {
+      drive(Channel::Target::node_translation, 0, 3, {0, 0, 0}, {0, 4, 0}),
+      drive(Channel::Target::light_intensity, 0, 1, {5}, {9})};
+  animate(scene, -1, 1.0f);
+  EXPECT_EQ(glm::vec3(scene.instances[0].world_from_object[3]), glm::vec3(0, 4, 0));
+  EXPECT_EQ(scene.lights[0].intensity, glm::vec3(9.0f));
+  rest(scene);
+  EXPECT_EQ(glm::vec3(scene.instances[0].world_from_object[3]), glm::vec3(10, 0, 0));
+  EXPECT_EQ(scene.lights[0].intensity, glm::vec3(2.0f));
+}
+
 TEST(Animate, DrivesLightsCamerasAndMaterials) {
   using Target = Channel::Target;
   Scene scene = rigged();

@@ -324,9 +324,9 @@ TEST(FieldEdit, IsNotHeldUpByWhatLearningCorrectionsTakes) {
   // Make new rays expensive, as if corrections were learned with them, and rays of edits cheap
   Scheduling& learned = FieldAccess::state_of(edited.field).scheduling;
   learned.ray_cost = {};
-  learned.ray_cost.learn(1, 1e6);
+  learned.ray_cost.learn(1, 1e6, 0.0);
   learned.edit_cost = {};
-  learned.edit_cost.learn(1, 1e-6);
+  learned.edit_cost.learn_slice(1, 1e-6);
   edited.scene.lights[0].intensity *= 0.25f;
   ASSERT_TRUE(edited.world.update());
   const UpdateStatistics first = edited.field.update(edited.world, {.time_budget_ms = 1e3});

@@ -2,10 +2,13 @@
 // Solid matter is found by what rays meet, whichever way surfaces are wound.
 #include "raytracing/solid_sides.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <glm/gtc/matrix_transform.hpp>
+#include <span>
 
 #include "field/placement/relocate.h"
 #include "raytracing/find_solid_sides.h"
@@ -131,6 +134,46 @@ TEST(SolidSides, AreNoneOfASheetInTheOpen) {
   test::add(scene, test::quad({-1.0f, 0.1f, -1.0f}, {0.0f, 0.0f, 2.0f}, {2.0f, 0.0f, 0.0f}, 0));
   const SolidSides sides = sides_in(scene);
   EXPECT_TRUE(std::all_of(sides.words.begin(), sides.words.end(), [](auto w) { return w == 0u; }));
+}
+
+/// A tunnel of two-sided sheets, 3 m wide, on piles above a plain under a sky: from its closed end
+/// at z = 0 to z = -20, then around a corner and out at x = 20.
+Scene bent_tunnel() {
+  Scene scene;
+  scene.materials.push_back(test::lambert(vec3(0.5f)));
+  scene.materials.back().double_sided = true;
+  scene.environment.radiance = vec3(1.0f);
+  const vec3 x(1, 0, 0), y(0, 2.5f, 0), z(0, 0, 1);
+  const auto add = [&](const vec3& corner, const vec3& a, const vec3& b) {
+    test::add(scene, test::quad(corner, a, b, 0));
+  };
+  add({-40, -1, -40}, 80.0f * x, 80.0f * z);
+  add({-40, -1, -40}, x, 4.0f / 2.5f * y);
+  add({0, 0, 0}, 3.0f * x, y);
+  add({0, 0, -17}, 17.0f * z, y);
+  add({3, 0, -17}, 17.0f * z, y);
+  add({0, 0, -20}, 20.0f * x, y);
+  add({0, 0, -20}, 3.0f * z, y);
+  add({3, 0, -17}, 17.0f * x, y);
+  for (const float height : {0.0f, 2.5f}) {
+    add({0, height, -17}, 3.0f * x, 17.0f * z);
+    add({0, height, -20}, 20.0f * x, 3.0f * z);
+  }
+  return scene;
+}
+
+TEST(OpenPlaces, LeadOutOfOneGridIntoAnother) {
+  const Scene scene = bent_tunnel();
+  const World world(scene);
+  const mat3 upright(1.0f);
+  // The first grid sees no way out, and the other one just some of the first one's walls
+  const std::array<PlaceGrid, 2> grids = {
+      PlaceGrid{vec3(0.3f, 0.3f, -15.5f), upright, vec3(0.8f), ivec3(4, 4, 20)},
+      PlaceGrid{vec3(0.3f, 0.3f, -19.8f), upright, vec3(0.9f), ivec3(24, 3, 7)}};
+  const SolidSides sides = find_solid_sides(world, grids);
+  // The first two are the scene's own
+  ASSERT_EQ(sides.open_space.size(), 4u);
+  EXPECT_THAT(sides.open_space[2].open, ::testing::Each(1));
 }
 
 TEST(SolidSides, AreThoseOfTheWindingWhereNothingIsSeen) {

@@ -23,9 +23,11 @@
 #include <optional>
 
 #include "core/pass_times.h"
+#include "core/stopwatch.h"
 #include "field/edits/history_ratio.h"
 #include "field/edits/history_ratio_math.h"
 #include "field/edits/invalidation.h"
+#include "field/edits/stale_probes.h"
 #include "field/field_state.h"
 #include "field/passes.h"
 #include "field/probes/tile_light.h"
@@ -38,41 +40,22 @@ namespace {
 // behind an edit by at most this many updates, and edits in every update cost little more.
 constexpr std::size_t kSleepingSlices = 8;
 
-// Probes that lag behind the world by more revisions than this are brought up to date before all
-// others.
-constexpr std::uint64_t kOverdueRevisions = 16;
-
 // While the world is edited in every update, corrections forget in one of this many updates: a
 // fraction of the time in which they learn.
 constexpr int kForgetInterval = 16;
+
+// The share of an update's time for edits that its first slice may take. The slice tells what a
+// probe takes, which differs from edit to edit.
+constexpr double kFirstSliceShare = 0.25;
+
+// Once this share of the time for edits is spent, no further slice begins.
+constexpr double kTimeSpent = 0.9;
 
 /// The oldest revision for which the world's log still has all later changes.
 std::uint64_t oldest_known_revision(const World& world) {
   const std::uint64_t revision = world.revision();
   const std::uint64_t reach = std::min<std::uint64_t>(revision, World::kLogLength);
   return revision - reach;
-}
-
-/// Some stale probes that are brought up to date together.
-struct Slice {
-  std::vector<int> probes;
-  std::uint64_t oldest = 0;  ///< The oldest revision that any of them is up to date with.
-};
-
-/// Takes the first waiting probes: at least one, and otherwise at most `most_surfels` surfels.
-Slice next_slice(std::span<const int> waiting, std::span<const ProbeTrace> traces,
-                 std::span<const ProbeStatus> statuses, std::uint64_t most_surfels) {
-  Slice slice;
-  slice.oldest = statuses[waiting.front()].revision;
-  std::uint64_t surfels = 0;
-  for (const int probe : waiting) {
-    // A probe that was relocated has no surfels
-    if (traces[probe].rays) surfels += static_cast<std::uint64_t>(traces[probe].rays->rays());
-    if (surfels > most_surfels && !slice.probes.empty()) break;
-    slice.probes.push_back(probe);
-    slice.oldest = std::min(slice.oldest, statuses[probe].revision);
-  }
-  return slice;
 }
 
 /// Lowers the sample counts of probes whose light the pending edits changed. Returns, for each
@@ -93,25 +76,6 @@ std::vector<float> reduce_history(const PendingEdits& pending, const WorkingIrra
     scheduler.mark_changed(probe);
   }
   return counts;
-}
-
-/// Sorts stale probes by how urgently they must be brought up to date: overdue ones come first, so
-/// that no probe stays stale for ever in a world that is edited continually. Then come probes by
-/// their importance, or by their distance from the viewer.
-void order_stale_probes(std::uint64_t revision, const ProbeStore& store,
-                        std::span<const ProbeStatus> statuses, std::span<const float> importance,
-                        const std::optional<vec3>& viewer_ws, std::vector<int>& waiting) {
-  std::vector<float> rank(statuses.size(), 0.0f);
-  for (const int probe : waiting) {
-    if (revision - statuses[probe].revision > kOverdueRevisions) {
-      rank[probe] = -std::numeric_limits<float>::max();
-    } else if (!importance.empty()) {
-      rank[probe] = -importance[probe];
-    } else if (viewer_ws) {
-      rank[probe] = glm::distance(store.probe_position_ws(probe), *viewer_ws);
-    }
-  }
-  std::stable_sort(waiting.begin(), waiting.end(), [&](int a, int b) { return rank[a] < rank[b]; });
 }
 
 }  // namespace
@@ -152,20 +116,16 @@ std::vector<float> IrradianceField::State::apply_edits_to_slice(
   return shares;
 }
 
-void IrradianceField::State::apply_edits_to_sleeping(const World& world, std::uint64_t ray_budget,
+void IrradianceField::State::apply_edits_to_sleeping(const World& world, const EditBudget& budget,
                                                      std::span<const int> all,
                                                      UpdateStatistics& statistics) {
   PassTimer watch(statistics.passes);
   const std::uint64_t spent = statistics.probe_rays + statistics.shadow_rays;
-  if (ray_budget != 0 && spent >= ray_budget) return;
-  std::size_t count = std::min(edits.sleeping_per_slice, edits.stale_sleeping.size());
-  if (ray_budget != 0 && count > 0) {
-    count = std::min(
-        count,
-        next_slice(edits.stale_sleeping, data.traces, statuses, ray_budget - spent).probes.size());
-  }
-  std::vector<int> probes(edits.stale_sleeping.begin(),
-                          edits.stale_sleeping.begin() + static_cast<std::ptrdiff_t>(count));
+  if (edits.stale_sleeping.empty() || spent >= budget.rays || budget.ms <= 0.0) return;
+  const std::size_t most =
+      std::min(edits.sleeping_per_slice, scheduling.edit_cost.probes_within(budget.ms));
+  std::vector<int> probes =
+      next_slice(edits.stale_sleeping, data.traces, statuses, {budget.rays - spent, most}).probes;
   edits.stale_sleeping.erase(
       edits.stale_sleeping.begin(),
       edits.stale_sleeping.begin() + static_cast<std::ptrdiff_t>(probes.size()));
@@ -303,18 +263,21 @@ void IrradianceField::State::begin_edits(std::uint64_t revision, std::span<const
 }
 
 /// Brings waiting probes up to date, slice by slice, until the budget is spent. It works in slices
-/// because the number of rays that a slice takes is known only afterwards.
-void IrradianceField::State::apply_edits_in_slices(const World& world, std::uint64_t ray_budget,
-                                                   StaleProbes& stale,
-                                                   UpdateStatistics& statistics) {
+/// because the rays and the time that a slice takes are known only afterwards. Returns the time
+/// that all took [ms].
+double IrradianceField::State::apply_edits_in_slices(const World& world, const EditBudget& budget,
+                                                     StaleProbes& stale,
+                                                     UpdateStatistics& statistics) {
   PassTimer watch(statistics.passes);
+  const Stopwatch slices;
   const auto texels = static_cast<std::size_t>(data.tile_texels());
-  const std::uint64_t most =
-      ray_budget == 0 ? std::numeric_limits<std::uint64_t>::max() : ray_budget;
   std::vector<int> updated;
   std::uint64_t spent = 0;
-  while (!stale.waiting.empty() && spent < most) {
-    const Slice slice = next_slice(stale.waiting, data.traces, statuses, most - spent);
+  double spent_ms = 0.0;
+  while (!stale.waiting.empty() && spent < budget.rays && spent_ms < kTimeSpent * budget.ms) {
+    const double ms = updated.empty() ? kFirstSliceShare * budget.ms : budget.ms - spent_ms;
+    const Slice slice = next_slice(stale.waiting, data.traces, statuses,
+                                   {budget.rays - spent, scheduling.edit_cost.probes_within(ms)});
     const std::vector<WorldChanges> changes = *world.changes_since(slice.oldest);
     WorkingIrradiance history_ratio = history_ratio_of(slice.probes, data);
     watch.finish(field_pass::kSolve);
@@ -330,12 +293,16 @@ void IrradianceField::State::apply_edits_in_slices(const World& world, std::uint
                         stale.waiting.begin() + static_cast<std::ptrdiff_t>(slice.probes.size()));
     updated.insert(updated.end(), slice.probes.begin(), slice.probes.end());
     spent = edit_work(statistics);
+    const double now_ms = slices.ms();
+    scheduling.edit_cost.learn_slice(slice.probes.size(), now_ms - spent_ms);
+    spent_ms = now_ms;
   }
   std::sort(updated.begin(), updated.end());
   std::vector<int> merged;
   std::merge(edits.pending.updated.begin(), edits.pending.updated.end(), updated.begin(),
              updated.end(), std::back_inserter(merged));
   edits.pending.updated = std::move(merged);
+  return slices.ms();
 }
 
 /// Removes the light of stale sleeping probes, when no other probe receives direct light any more.
@@ -349,10 +316,11 @@ void IrradianceField::State::darken_sleeping() {
   }
 }
 
-EditProgress IrradianceField::State::apply_scene_edits(const World& world, std::uint64_t ray_budget,
+EditProgress IrradianceField::State::apply_scene_edits(const World& world, EditBudget budget,
                                                        const std::optional<vec3>& viewer_ws,
                                                        UpdateStatistics& statistics) {
   PassTimer watch(statistics.passes);
+  const Stopwatch whole;
   const std::uint64_t revision = world.revision();
   if (edits.applied_revision == revision && edits.stale_sleeping.empty()) return EditProgress::none;
   if (edits.applied_revision > revision) {
@@ -371,13 +339,13 @@ EditProgress IrradianceField::State::apply_scene_edits(const World& world, std::
   }
   const bool any = !stale.waiting.empty();
   if (any) {
-    if (ray_budget != 0) {
+    if (is_bounded(budget)) {
       order_stale_probes(revision, data.store, statuses, scheduling.importance, viewer_ws,
                          stale.waiting);
     }
     begin_edits(revision, stale.traced);
     watch.finish(field_pass::kEdits);
-    apply_edits_in_slices(world, ray_budget, stale, statistics);
+    const double slices_ms = apply_edits_in_slices(world, budget, stale, statistics);
     watch.skip();
     const bool dark = stale.waiting.empty() && edits.pending.direct_light == 0.0;
     if (dark) darken_sleeping();
@@ -386,12 +354,16 @@ EditProgress IrradianceField::State::apply_scene_edits(const World& world, std::
       backend->store_light(edits.stale_sleeping, dither_seed());
     }
     watch.finish(field_pass::kSolve);
+    scheduling.edit_cost.learn_other(whole.ms() - slices_ms);
+    budget.ms -= slices_ms;
+    statistics.probes_stale = static_cast<int>(stale.waiting.size() + edits.stale_sleeping.size());
     if (!stale.waiting.empty()) return EditProgress::partial;
   }
   if (!edits.pending.before.empty()) reduce_history();
   edits.pending = {};
   edits.applied_revision = revision;
-  apply_edits_to_sleeping(world, ray_budget, stale.traced, statistics);
+  apply_edits_to_sleeping(world, budget, stale.traced, statistics);
+  statistics.probes_stale = static_cast<int>(edits.stale_sleeping.size());
   return any ? EditProgress::complete : EditProgress::none;
 }
 

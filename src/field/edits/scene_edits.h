@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "field/transport/anderson.h"
@@ -37,6 +38,18 @@ inline constexpr std::uint64_t kRaysPerInvalidation = 8;
 inline std::uint64_t edit_work(const UpdateStatistics& statistics) {
   return statistics.probe_rays + statistics.shadow_rays +
          kRaysPerInvalidation * static_cast<std::uint64_t>(statistics.probes_invalidated);
+}
+
+/// What an update may spend on applying edits.
+struct EditBudget {
+  std::uint64_t rays;  ///< edit_work(); the largest number: no bound.
+  double ms;           ///< Infinite: no bound.
+};
+inline constexpr EditBudget kUnboundedEdits = {std::numeric_limits<std::uint64_t>::max(),
+                                               std::numeric_limits<double>::infinity()};
+
+inline bool is_bounded(const EditBudget& budget) {
+  return budget.rays < kUnboundedEdits.rays || budget.ms < kUnboundedEdits.ms;
 }
 
 /// The probes that have been traced at all, and those whose surfels belong to an older revision of

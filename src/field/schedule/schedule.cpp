@@ -12,11 +12,6 @@ namespace {
 // ratio of two classes.
 constexpr float kBetweenClasses = 1.41421356f;
 
-// Weight of the newest measurement in the moving average of the cost of a ray.
-constexpr double kCostShare = 0.2;
-// The assumed cost of a ray before any was timed [ms], as on a slow processor.
-constexpr double kFirstGuessMs = 1e-3;
-
 }  // namespace
 
 bool is_scheduled(const ProbeStatus& status) {
@@ -31,17 +26,6 @@ int ray_class_for(float rays) {
     if (rays <= kBetweenClasses * static_cast<float>(count)) return count;
   }
   return kRayClasses.back();
-}
-
-void RayCost::learn(std::uint64_t rays, double ms) {
-  if (rays == 0) return;
-  const double cost = ms / static_cast<double>(rays);
-  ms_per_ray_ = ms_per_ray_ == 0.0 ? cost : ms_per_ray_ + kCostShare * (cost - ms_per_ray_);
-}
-
-std::uint64_t RayCost::rays_within(double ms) const {
-  const double cost = ms_per_ray_ == 0.0 ? kFirstGuessMs : ms_per_ray_;
-  return std::max<std::uint64_t>(kRayClasses.front(), static_cast<std::uint64_t>(ms / cost));
 }
 
 Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles,

@@ -39,18 +39,6 @@ inline float longest_average(const FieldSettings& settings) {
 /// that have been traced and hold samples.
 bool is_scheduled(const ProbeStatus& status);
 
-/// Measures the cost of a ray, and converts time budgets into ray budgets.
-class RayCost {
- public:
-  /// Learns from the number of rays and the time of an update.
-  void learn(std::uint64_t rays, double ms);
-  /// The number of rays to trace within a time: at least those of one probe.
-  std::uint64_t rays_within(double ms) const;
-
- private:
-  double ms_per_ray_ = 0.0;  // 0: nothing learned yet
-};
-
 /// The probes of an update, and their numbers of rays.
 struct Schedule {
   std::vector<int> probes;  ///< In ascending order.

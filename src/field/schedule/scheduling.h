@@ -9,14 +9,15 @@
 #include "field/field_backend.h"
 #include "field/probes/probe_status.h"
 #include "field/schedule/schedule.h"
+#include "field/schedule/update_costs.h"
 
 namespace lambent {
 
 struct Scheduling {
   ProbeScheduler scheduler;
   std::vector<float> importance = {};  ///< Per probe; empty where an update has no visible points.
-  RayCost ray_cost = {};               ///< Cost of rays in updates that trace new rays.
-  RayCost edit_cost = {};   ///< Cost of rays that apply edits, without learning corrections.
+  RayCost ray_cost = {};
+  EditCost edit_cost = {};
   bool warming_up = true;   ///< Whether some live probe has not been traced since the start.
   float mean_light = 0.0f;  ///< Mean luminance of the live probes.
 };

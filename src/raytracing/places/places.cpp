@@ -42,6 +42,11 @@ constexpr float kHalfway = 0.5f;
 // Seed of their random numbers.
 constexpr std::uint32_t kEmitterSeed = 5;
 
+/// Whether a region is open of whose rays so many leave.
+bool leads_out(std::size_t leaving, std::size_t rays) {
+  return leaving >= kMinLeaving && leaving * kRaysOfLeaving >= rays;
+}
+
 }  // namespace
 
 Ray ray_between(const vec3& place_ws, const vec3& point_ws) {
@@ -75,6 +80,39 @@ void Places::keep_open(const OpenPlaces& before) {
   for (std::size_t place = 0; place < count(); ++place) {
     if (2 * open[region_[place]] > all[region_[place]]) open_[place] = 1;
   }
+}
+
+bool Places::open_towards(const Places& other) {
+  std::vector<Ray> ways;
+  std::vector<std::uint32_t> regions;
+  for (std::size_t place = 0; place < count(); ++place) {
+    const vec3 here = grid_.position_ws(grid_.coords(place));
+    if (open_[place] != 0 || !other.grid_.contains(here)) continue;
+    for (const std::size_t there : other.grid_.places_around(here)) {
+      if (other.open_[there] == 0) continue;
+      ways.push_back(ray_between(other.grid_.position_ws(other.grid_.coords(there)), here));
+      regions.push_back(region_[place]);
+    }
+  }
+  std::vector<std::uint8_t> occluded(ways.size());
+  const RayTracer& tracer = tracer_of(world_);
+  parallel_chunks(ways.size(), batch_of(tracer, 1, kPlacesPerTask * kRays),
+                  [&](std::size_t begin, std::size_t end) {
+                    tracer.occlusions({&ways[begin], end - begin}, {&occluded[begin], end - begin});
+                  });
+  std::vector<std::size_t> all(regions_, 0), seen(regions_, 0);
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    ++all[regions[i]];
+    seen[regions[i]] += occluded[i] == 0 || ways[i].t_max == 0.0f ? 1 : 0;
+  }
+  bool any = false;
+  for (std::size_t place = 0; place < count(); ++place) {
+    const std::uint32_t region = region_[place];
+    if (open_[place] != 0 || !leads_out(seen[region], all[region])) continue;
+    open_[place] = 1;
+    any = true;
+  }
+  return any;
 }
 
 bool Places::open_rooms(const std::function<bool(const Hit&)>& is_wall) {
@@ -217,7 +255,7 @@ void Places::open_regions() {
     find_region(first, visited, region);
     std::size_t leaving = 0;
     for (const std::size_t place : region) leaving += leaving_[place];
-    const bool open = leaving >= kMinLeaving && leaving * kRaysOfLeaving >= region.size() * kRays;
+    const bool open = leads_out(leaving, region.size() * kRays);
     for (const std::size_t place : region) {
       open_[place] = open ? 1 : 0;
       region_[place] = static_cast<std::uint32_t>(regions_);

@@ -34,6 +34,9 @@ class Places {
   /// Opens the regions most of which were open before, with the same scene but for its lights: a
   /// room whose lamp is off is still a room.
   void keep_open(const OpenPlaces& before);
+  /// Opens the regions that see open places of another grid: a tunnel leads out of the box of a
+  /// grid, and what is open may lie beyond it. Returns whether there are any.
+  bool open_towards(const Places& other);
   /// Opens the regions of which nearly all rays hit walls, `is_wall(hit)`: dark rooms. Returns
   /// whether there are any.
   bool open_rooms(const std::function<bool(const Hit&)>& is_wall);

@@ -48,16 +48,15 @@ glm::vec3 not_negative(const glm::vec3& v) {
 /// Poses a scene. The copies of the rig's lists hold the current values in place of those at rest.
 class Pose {
  public:
-  Pose(Scene& scene, int animation, float time_s) : scene_(scene), rig_(scene.rig) {
+  explicit Pose(Scene& scene) : scene_(scene), rig_(scene.rig) {
     nodes_ = rig_.nodes;
     lights_ = rig_.lights;
     cameras_ = rig_.cameras;
     materials_ = rig_.materials;
-    const std::span<const Animation> all(scene.animations);
-    for (const Animation& playing :
-         animation < 0 ? all : all.subspan(static_cast<std::size_t>(animation), 1)) {
-      for (const Channel& channel : playing.channels) apply(channel, time_s);
-    }
+  }
+
+  void apply(const Animation& animation, float time_s) {
+    for (const Channel& channel : animation.channels) apply(channel, time_s);
   }
 
   void set() {
@@ -253,7 +252,17 @@ class Pose {
 
 void animate(Scene& scene, int animation, float time_s) {
   if (scene.animations.empty()) return;
-  Pose(scene, animation, time_s).set();
+  Pose pose(scene);
+  const std::span<const Animation> all(scene.animations);
+  for (const Animation& playing :
+       animation < 0 ? all : all.subspan(static_cast<std::size_t>(animation), 1)) {
+    pose.apply(playing, time_s);
+  }
+  pose.set();
+}
+
+void rest(Scene& scene) {
+  if (!scene.animations.empty()) Pose(scene).set();
 }
 
 }  // namespace lambent

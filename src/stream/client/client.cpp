@@ -5,6 +5,7 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/ssl/context.hpp>
+#include <boost/asio/ssl/error.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
 #include <utility>
@@ -45,6 +46,9 @@ class BeastClient : private Base, public Client {
     if (error) return failed("does not answer", error);
     stream.socket().set_option(tcp::no_delay(true), error);
     error = wait([&](auto done) { stream.async_handshake(beast::role_type::client, done); });
+    if (settings_.tls && error == boost::asio::ssl::error::stream_truncated) {
+      return failed("ends the connection: it may not speak TLS, and want no https://", error);
+    }
     if (error) return failed("cannot be trusted", error);
     socket_.set_option(websocket::stream_base::decorator([&](websocket::request_type& request) {
       if (!settings_.origin.empty()) request.set(beast::http::field::origin, settings_.origin);
@@ -55,6 +59,9 @@ class BeastClient : private Base, public Client {
     const std::string host = settings_.host + ":" + std::to_string(settings_.port);
     websocket::response_type answer;
     error = wait([&](auto done) { socket_.async_handshake(answer, host, "/stream", done); });
+    if (error == beast::http::error::end_of_stream && !settings_.tls) {
+      return failed("ends the connection: it may speak TLS alone, and want https://", error);
+    }
     if (error) return failed("refused the connection", error);
     stream.expires_never();
     // A server or a proxy may not support the header field

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stream/client/lit_scene.h"
 
+#include <algorithm>
 #include <array>
 #include <variant>
 
@@ -14,16 +15,22 @@ Expected<void> LitScene::edit(const Edit& edit) {
   return fail("scene", "", "is not the server's: " + refused->front().why);
 }
 
+/// Poses the scene as the server's is at a time; below 0 none of its animations is played.
+Expected<void> LitScene::pose(float time_s) {
+  const float now_s = std::max(time_s, kRestTime);
+  if (now_s == time_s_) return {};
+  time_s_ = now_s;
+  if (now_s < 0.0f) {
+    rest(scene_);
+  } else {
+    animate(scene_, -1, now_s);
+  }
+  if (const auto moved = world_.update(); !moved) return tl::unexpected(moved.error());
+  return {};
+}
+
 Expected<LitScene::Followed> LitScene::take_light(const LightPayload& light) {
-  if (light.time_s >= 0.0f && light.time_s != time_s_) {
-    time_s_ = light.time_s;
-    animate(scene_, -1, time_s_);
-    if (const auto moved = world_.update(); !moved) return tl::unexpected(moved.error());
-  }
-  if (light.time_s < 0.0f && time_s_ >= 0.0f) {
-    return fail("scene", "", "is no longer animated by the server, and where it began is not known",
-                Error::Kind::failed);
-  }
+  if (const auto posed = pose(light.time_s); !posed) return tl::unexpected(posed.error());
   // Messages that are broken or do not apply leave the light unchanged; the server then sends the
   // whole state
   const bool taken = streamed_.receive(light.bytes).has_value();

@@ -46,14 +46,18 @@ class LitScene {
   std::uint64_t update() const { return streamed_.decoder().update(); }
 
  private:
+  // The time of a scene that no animation poses
+  static constexpr float kRestTime = -1.0f;
+
   Expected<void> edit(const Edit& edit);
+  Expected<void> pose(float time_s);
   Expected<Followed> take_light(const LightPayload& light);
 
   Scene& scene_;
   World& world_;
   SceneEditor editor_;
   StreamedField streamed_;
-  float time_s_ = -1.0f;
+  float time_s_ = kRestTime;
 };
 
 }  // namespace lambent::stream

@@ -29,6 +29,7 @@ struct HubStats {
   std::uint64_t state = 0;                ///< Updates of the world so far.
   double update_ms = 0.0;                 ///< Time of the last update of the light.
   double rate = 0.0;                      ///< Achieved updates per second.
+  int probes_stale = 0;                   ///< Probes that edits have not reached yet.
   std::uint64_t pictures = 0;             ///< Number so far.
   double picture_ms = 0.0;                ///< To render and encode the last one.
   std::uint64_t light_bytes = 0;          ///< Light sent to all clients so far.

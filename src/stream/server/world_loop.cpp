@@ -212,6 +212,7 @@ void WorldLoop::update_light() {
   hub_.edit_stats([&](HubStats& stats) {
     stats.state = state_.updates;
     stats.update_ms = update_ms;
+    stats.probes_stale = done.probes_stale;
   });
   // Missed updates are skipped
   const auto interval = std::chrono::duration_cast<Clock::duration>(

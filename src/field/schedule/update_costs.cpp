@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/schedule/update_costs.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "field/schedule/schedule.h"
+
+namespace lambent {
+namespace {
+
+// Weight of the newest measurement in a moving average.
+constexpr double kNewestShare = 0.2;
+
+// The assumed cost of a ray before any was timed [ms], as on a slow processor.
+constexpr double kFirstGuessMs = 1e-3;
+
+// Slices have at least this many probes: each slice has a cost of its own, about that of as many
+// probes.
+constexpr std::size_t kLeastSlice = 16;
+
+// The assumed cost of a probe before any was timed [ms], as on a slow processor.
+constexpr double kFirstProbeMs = 0.5;
+
+}  // namespace
+
+void MeasuredTime::learn(double ms) {
+  ms_ = known_ ? ms_ + kNewestShare * (ms - ms_) : ms;
+  known_ = true;
+}
+
+double time_for_work(double ms, double other_ms) {
+  return std::max(ms - other_ms, 0.5 * ms);
+}
+
+void RayCost::learn(std::uint64_t rays, double rays_ms, double other_ms) {
+  if (rays == 0) return;
+  ray_.learn(rays_ms / static_cast<double>(rays));
+  other_.learn(other_ms);
+}
+
+std::uint64_t RayCost::rays_within(double ms) const {
+  const double cost = ray_.is_known() ? ray_.ms() : kFirstGuessMs;
+  return std::max<std::uint64_t>(kRayClasses.front(),
+                                 static_cast<std::uint64_t>(time_for_work(ms, other_.ms()) / cost));
+}
+
+void EditCost::learn_slice(std::size_t probes, double ms) {
+  if (probes > 0) ms_per_probe_ = ms / static_cast<double>(probes);
+}
+
+std::size_t EditCost::probes_within(double ms) const {
+  const double cost = ms_per_probe_ > 0.0 ? ms_per_probe_ : kFirstProbeMs;
+  const double probes = std::min(ms / cost, static_cast<double>(std::numeric_limits<int>::max()));
+  return std::max(kLeastSlice, static_cast<std::size_t>(probes));
+}
+
+}  // namespace lambent
