@@ -132,6 +132,9 @@ LAMBENT_REAL_FN AtrousLight filtered_pixel(AtrousPass by) {
       difference += difference_of_lobes(by.lobe_scale, lobe, lobe_at(x * by.apart, y * by.apart),
                                         there.position_ws - here.position_ws, across_ws);
     }
+    if (by.checks_steps != 0u) {
+      difference += step_before(there, guide_at(x * (by.apart - 1), y * (by.apart - 1)));
+    }
     if (by.geometric == 0u) {
       difference += difference_of_light(by, own_luminance - filtered_luminance(by, neighbour),
                                         own.spread * own.share, neighbour.spread * neighbour.share);

@@ -93,8 +93,10 @@ struct PixelLanes {
 
 /// Filters a row with flags that are compile-time constants, so that loops have no branches.
 LAMBENT_FORCE_INLINE void filter_lanes(AtrousPass by, const AtrousRow& row, uint geometric,
-                                       uint has_base, uint has_levels, uint has_lobes) {
+                                       uint has_base, uint has_levels, uint has_lobes,
+                                       uint checks_steps = 0) {
   by.geometric = geometric;
+  by.checks_steps = checks_steps;
   by.has_base = has_base;
   by.has_levels = has_levels;
   by.has_lobes = has_lobes;
@@ -110,8 +112,17 @@ LAMBENT_FORCE_INLINE void filter_lanes(AtrousPass by, const AtrousRow& row, uint
   }
 }
 
+/// Filters a row where steps are checked and nothing else of light is known, or its base or levels.
+LAMBENT_FORCE_INLINE void filter_steps(const AtrousPass& by, const AtrousRow& row) {
+  if (by.has_base != 0) return filter_lanes(by, row, 1, 1, 0, 0, 1);
+  if (by.has_levels != 0) return filter_lanes(by, row, 1, 0, 1, 0, 1);
+  filter_lanes(by, row, 1, 0, 0, 0, 1);
+}
+
 static void filter_row(const AtrousPass& by, const AtrousRow& row) {
-  if (by.has_lobes != 0) {
+  if (by.checks_steps != 0) {
+    by.has_lobes != 0 ? filter_lanes(by, row, 1, 0, 0, 1, 1) : filter_steps(by, row);
+  } else if (by.has_lobes != 0) {
     by.geometric != 0 ? filter_lanes(by, row, 1, 0, 0, 1) : filter_lanes(by, row, 0, 0, 0, 1);
   } else if (by.has_base != 0) {
     by.geometric != 0 ? filter_lanes(by, row, 1, 1, 0, 0) : filter_lanes(by, row, 0, 1, 0, 0);

@@ -45,6 +45,14 @@ const float kLeastLobeSharpness = 1e-6f;
 // Least cosine of the angle of incidence that stretches lobes: below it they are slivers.
 const float kLeastLobeCosine = 1e-3f;
 
+// Penalty on a neighbour beyond a step, times the squared sine of the step's slope: a step as high
+// as pixels are apart takes nearly all of the weight, a sphere 20 pixels wide hardly any.
+const float kStepSharpness = 16.0f;
+
+// Squared distance between neighbouring pixels that keeps the slope finite where they are at one
+// place [m^2].
+const float kTiniestWay = 1e-20f;
+
 // Squared luminance that always counts as noise: far below any light, so that equal pixels without
 // variance do not divide zero by zero.
 const float kLeastContrast = 1e-20f;
@@ -77,6 +85,7 @@ struct AtrousPass {
   float contrast_scale;    ///< 1 / DenoiseSettings::noise_tolerance^2.
   float lobe_scale;        ///< 1 / DenoiseSettings::lobe_share^2.
   uint geometric;          ///< 1: the light of pixels is not compared.
+  uint checks_steps;       ///< 1: neighbours beyond a step count less; see step_before().
   uint ends_estimate;      ///< 1: after this pass, the variance is known from neighbours.
   uint harmonic;           ///< How variances of two pixels are joined; see variance_between().
   uint only_spread;        ///< 1: averages variances alone, and leaves light as it is.

@@ -22,6 +22,16 @@ LAMBENT_REAL_FN Real difference_of_surfaces(AtrousPass by, AtrousGuide here, Rea
   return by.normal_sharpness * (1.0f - cosine) + off_plane * off_plane;
 }
 
+/// Exponent of a neighbour's weight by the step, if any, between it and the pixel `before` it, on
+/// the way to where its light goes. A strip that stands out less than the plane's tolerance has
+/// some weight for pixels beyond it, but not enough to share its light with all of those between:
+/// each pass would show it once more, as lines 4, 8 and 16 pixels away.
+LAMBENT_REAL_FN Real step_before(AtrousGuide neighbour, AtrousGuide before) {
+  Real3 way = before.position_ws - neighbour.position_ws;
+  Real height = dot(neighbour.normal_ws, way);
+  return kStepSharpness * height * height / (dot(way, way) + kTiniestWay);
+}
+
 /// The variance that the difference of two pixels' luminance is compared with. The variance of the
 /// difference is the sum. Twice the harmonic mean is less where one pixel's light is known better,
 /// and keeps noisy light out of pixels known to be dark.

@@ -225,6 +225,23 @@ TEST(Denoise, KeepsLightOfOneSurfaceFromAnother) {
   }
 }
 
+TEST(Denoise, SeesAStripBesideASurfaceOnceOnly) {
+  // A bright strip along a wall's lower edge that stands out by 0.7 of the plane's tolerance
+  Wall wall(40, 120);
+  constexpr int kStrip = 110;
+  for (int x = 0; x < wall.width; ++x) wall.positions[wall.at(x, kStrip)].z = 0.007f;
+  for (int y = kStrip + 1; y < wall.height; ++y) {
+    for (int x = 0; x < wall.width; ++x) wall.positions[wall.at(x, y)].z = -1.0f;
+  }
+  wall.set_light([](int, int y, float) { return vec3(y == kStrip ? 1.0f : 0.0f); });
+  const std::vector<vec3> filtered = wall.filtered(geometric_denoising());
+  // The farther from the strip, the darker
+  for (int y = 20; y < kStrip; ++y) {
+    const float here = filtered[wall.at(20, y)].x, farther = filtered[wall.at(20, y - 1)].x;
+    EXPECT_LT(farther, here + 2e-3f) << y;
+  }
+}
+
 TEST(Denoise, AddsTheDetailOfTheBase) {
   Wall wall(80, 60);
   wall.base.resize(wall.light.size());
