@@ -33,6 +33,10 @@ constexpr float kMaxEyeShareOfHeight = 0.6f;
 // is a thing, such as a rack of lamps.
 constexpr float kMinStreetGround = 10.0f;
 
+// Streets are in the lower part of a scene, up to this share of its height, wherever there are any:
+// higher up are the roofs of houses between taller ones.
+constexpr float kMaxStreetFloor = 0.5f;
+
 // An observer stands on the floor, not on a worktop, under a table or between shelves: where there
 // is at least this share of the median height of all places. In rooms whose heights look like
 // metres, kMinRoomHeight is enough: aisles and galleries beside a high hall are places, too.
@@ -253,11 +257,16 @@ std::optional<Camera> street_view(const World& world, const SpaceSurvey& survey,
                                   const Bounds& bounds, float vertical_fov, float aspect) {
   const glm::vec3 size = bounds.max - bounds.min;
   if (std::min(size.x, size.z) < kMinStreetGround) return std::nullopt;
-  SpaceSurvey streets;
+  SpaceSurvey streets, low;
   std::ranges::copy_if(
       survey.sheltered, std::back_inserter(streets.sheltered),
       [](const OpenPlace& place) { return place.open_above && has_human_scale(place); });
-  return inside_view(world, streets, bounds, vertical_fov, aspect);
+  std::ranges::copy_if(streets.sheltered, std::back_inserter(low.sheltered),
+                       [&](const OpenPlace& place) {
+                         return place.floor <= bounds.min.y + kMaxStreetFloor * size.y;
+                       });
+  const bool all = low.sheltered.empty();
+  return inside_view(world, all ? streets : low, bounds, vertical_fov, aspect);
 }
 
 }  // namespace lambent

@@ -295,6 +295,24 @@ TEST(FirstView, StandsInAStreetThatItsWindowsLight) {
   EXPECT_FALSE(first_view(World(model)).value().inside) << "a model of a street is seen as a thing";
 }
 
+TEST(FirstView, StandsInAStreetAndNotOnARoofBetweenTallerHouses) {
+  Scene town = scene_of({test::quad({-4, 0, 10}, {8, 0, 0}, {0, 0, -50}, 0)});
+  for (int i = 0; i < 5; ++i) {
+    const float z = -40.0f + 10.0f * static_cast<float>(i);
+    const float height = 8.0f + 2.0f * static_cast<float>(i * 37 % 5);
+    test::add(town, box_mesh({-15, 0, z}, {-7, height, z + 10}));
+    test::add(town, box_mesh({7, 0, z}, {15, height + 3, z + 10}));
+  }
+  town.materials.push_back(test::lambert(glm::vec3(0.0f), glm::vec3(15.0f)));
+  for (const float z : {0.0f, -8.0f, -15.0f, -24.0f}) {
+    test::add(town, test::quad({5.2f, 4, z}, {1.8f, 0, 0}, {0, 0.7f, 0}, 1));
+    test::add(town, test::quad({-6.97f, 2.2f, z}, {0, 0, 2}, {0, 0.75f, 0}, 1));
+  }
+  const FirstView view = first_view(World(town)).value();
+  EXPECT_TRUE(view.inside);
+  EXPECT_NEAR(eye_of(view.camera).y, 1.6f, 0.2f);
+}
+
 TEST(FirstView, StandsInAnAlleyAndNotWithinItsClosedHouses) {
   // Two rows of houses, wall to wall, of surfaces of two sides
   constexpr float kDepth = 22.0f, kEnd = 10.0f;
