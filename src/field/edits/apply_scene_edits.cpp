@@ -44,8 +44,8 @@ constexpr std::size_t kSleepingSlices = 8;
 // fraction of the time in which they learn.
 constexpr int kForgetInterval = 16;
 
-// The share of an update's time for edits that its first slice may take. The slice tells what a
-// probe takes, which differs from edit to edit.
+// The share of an update's time for edits that the first slice after an edit may take. The slice
+// tells what a probe takes, which differs from edit to edit.
 constexpr double kFirstSliceShare = 0.25;
 
 // Once this share of the time for edits is spent, no further slice begins.
@@ -275,7 +275,8 @@ double IrradianceField::State::apply_edits_in_slices(const World& world, const E
   std::uint64_t spent = 0;
   double spent_ms = 0.0;
   while (!stale.waiting.empty() && spent < budget.rays && spent_ms < kTimeSpent * budget.ms) {
-    const double ms = updated.empty() ? kFirstSliceShare * budget.ms : budget.ms - spent_ms;
+    const bool first = edits.pending.updated.empty() && updated.empty();
+    const double ms = first ? kFirstSliceShare * budget.ms : budget.ms - spent_ms;
     const Slice slice = next_slice(stale.waiting, data.traces, statuses,
                                    {budget.rays - spent, scheduling.edit_cost.probes_within(ms)});
     const std::vector<WorldChanges> changes = *world.changes_since(slice.oldest);
