@@ -159,9 +159,7 @@ Expected<void> check_connect_output(const ConnectOptions& options) {
   if (const auto fine = check_output(options.output, {".png", ".jpg", ".jpeg", ".exr"}); !fine) {
     return fine;
   }
-  if (options.layers && !has_ending(options.output, ".exr")) {
-    return fail("--layers", "", "go into an .exr alone: add -o FILE.exr");
-  }
+  if (const auto can = check_layers(options.layers, options.output); !can) return can;
   const auto exposure = parse_exposure(options.exposure);
   if (!exposure) return tl::unexpected(exposure.error());
   return {};

@@ -55,6 +55,11 @@ Expected<void> check_output(const std::string& path, std::initializer_list<const
   return fail(path, "", "the output must end in " + list_text(names));
 }
 
+Expected<void> check_layers(bool layers, const std::string& output) {
+  if (!layers || has_ending(output, ".exr")) return {};
+  return fail("--layers", "", "go into an .exr alone: add -o FILE.exr");
+}
+
 Expected<void> check_own_output(const std::string& path, const std::string& what) {
   for (const char* ending : kEndingsOfOtherFiles) {
     if (has_ending(path, ending)) {

@@ -20,6 +20,9 @@ Expected<void> check_place(const std::string& path);
 /// check_place, and fails where the name does not end in one of `endings` (".png").
 Expected<void> check_output(const std::string& path, std::initializer_list<const char*> endings);
 
+/// Fails where layers are asked for and the output is no .exr, which alone has any.
+Expected<void> check_layers(bool layers, const std::string& output);
+
 /// check_place for Lambent's own formats (`what`: "a field"), which may have any ending except
 /// those of pictures, scenes and statistics.
 Expected<void> check_own_output(const std::string& path, const std::string& what);

@@ -45,10 +45,7 @@ std::string frame_path(const std::string& pattern, int frame) {
 Expected<void> check_outputs(const RenderOptions& options) {
   const auto fine = check_output(options.output, {".png", ".jpg", ".jpeg", ".exr"});
   if (!fine) return fine;
-  const bool exr = has_ending(options.output, ".exr");
-  if (options.layers && !exr) {
-    return fail("--layers", "", "go into an .exr alone: add -o FILE.exr");
-  }
+  if (const auto can = check_layers(options.layers, options.output); !can) return can;
   const std::string first = options.frames > 0 ? frame_path(options.output, 0) : options.output;
   for (const std::string& path : {first, options.stats}) {
     if (path.empty()) continue;

@@ -157,8 +157,8 @@ float duration(const Animation& animation);
 /// runs out.
 void animate(Scene& scene, int animation, float time_s);
 
-/// Gives every property that some animation of the scene drives its rest value. Otherwise like
-/// animate().
+/// Gives every property that some animation of the scene drives its rest value. Call World::update
+/// afterwards, as after animate().
 void rest(Scene& scene);
 
 }  // namespace lambent

@@ -162,8 +162,9 @@ struct UpdateRequest {
   std::uint64_t ray_budget = 0;
   /// Wall-clock time to take [ms]; no bound where it is not above 0. The field learns how many rays
   /// that allows; the smaller of both bounds holds. Placing probes, in the first update and after
-  /// edits of static geometry, takes the time that it needs. Where an update takes more than half
-  /// of this without tracing a ray, half of it goes to rays all the same, and it takes longer.
+  /// edits of static geometry, takes the time that it needs. Edits come first, and may take all of
+  /// it. Where the rest of the work takes longer than half of this time, half of it goes to edits
+  /// or rays all the same, and the update exceeds it.
   double time_budget_ms = 0.0;
   /// Where the camera is [m]: of probes equally unsettled, near ones go first, and cascades follow.
   /// Numbers that are not finite count as none.
@@ -206,7 +207,7 @@ struct UpdateStatistics {
   int probes_recycled = 0;        ///< Moved to a new place by a scrolling volume.
   int probes_invalidated = 0;     ///< Brought up to date with edits of the world.
   int probes_changed = 0;         ///< Those of them whose light the edits changed.
-  int probes_stale = 0;           ///< That edits have not reached yet, after the update.
+  int probes_stale = 0;           ///< Not yet up to date with edits after the update.
   ProbeCounts states;             ///< After the update.
   int solve_iterations = 0;       ///< Iterations of the multi-bounce solve.
   double residual = 0.0;          ///< Estimated relative error this update stopped at.

@@ -112,7 +112,7 @@ LAMBENT_FORCE_INLINE void filter_lanes(AtrousPass by, const AtrousRow& row, uint
   }
 }
 
-/// Filters a row where steps are checked and nothing else of light is known, or its base or levels.
+/// Filters a row of a pass that checks steps and compares no light, which no lobe reflects.
 LAMBENT_FORCE_INLINE void filter_steps(const AtrousPass& by, const AtrousRow& row) {
   if (by.has_base != 0) return filter_lanes(by, row, 1, 1, 0, 0, 1);
   if (by.has_levels != 0) return filter_lanes(by, row, 1, 0, 1, 0, 1);

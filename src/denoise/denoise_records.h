@@ -45,6 +45,7 @@ struct DenoisePassArguments {
   AtrousPass by;
   uint width;
   uint height;
+  uint padding;
 };
 
 /// Converts the last pass's result to filtered light, with the detail of its base.

@@ -43,7 +43,7 @@ void DenoiserVulkan::record_part(vulkan::Recorder& to, const DenoiseViewOnDevice
   for (const AtrousPass& by : denoise_passes(settings, has_base, measured, has_levels, has_lobes)) {
     const DenoisePassArguments pass = {
         view.positions_ws, view.normals_ws, view.depths, light.levels, view.lobes, from, into, by,
-        view.width,        view.height};
+        view.width,        view.height,     0u};
     to.run(kernels_.pass, pass, count);
     to.barrier();
     std::swap(from, into);

@@ -7,6 +7,7 @@
 //   Real, Real3              float and vec3, or lanes of them with the same operators
 //   LAMBENT_REAL_FN          before a function
 //   Real dot(Real3, Real3)
+//   Real zero_unless_positive(Real condition, Real value)
 // In C++ it is included in the body of a struct that has these as members.
 
 /// A pixel's position and normal.
@@ -22,14 +23,17 @@ LAMBENT_REAL_FN Real difference_of_surfaces(AtrousPass by, AtrousGuide here, Rea
   return by.normal_sharpness * (1.0f - cosine) + off_plane * off_plane;
 }
 
-/// Exponent of a neighbour's weight by the step, if any, between it and the pixel `before` it, on
-/// the way to where its light goes. A strip that stands out less than the plane's tolerance has
-/// some weight for pixels beyond it, but not enough to share its light with all of those between:
-/// each pass would show it once more, as lines 4, 8 and 16 pixels away.
+/// Exponent of a neighbour's weight by the step, if any, between it and the pixel `before` it,
+/// which is next to it on the way to the filtered pixel, or is that pixel. A strip that stands out
+/// less than the plane's tolerance has some weight for pixels beyond it, but not enough to share
+/// its light with all of those between: each pass would show it once more, as lines 4, 8 and 16
+/// pixels away.
 LAMBENT_REAL_FN Real step_before(AtrousGuide neighbour, AtrousGuide before) {
   Real3 way = before.position_ws - neighbour.position_ws;
   Real height = dot(neighbour.normal_ws, way);
-  return kStepSharpness * height * height / (dot(way, way) + kTiniestWay);
+  // Pixels without a surface have no normal, and their position means nothing
+  return zero_unless_positive(dot(before.normal_ws, before.normal_ws),
+                              kStepSharpness * height * height / (dot(way, way) + kTiniestWay));
 }
 
 /// The variance that the difference of two pixels' luminance is compared with. The variance of the

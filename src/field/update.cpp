@@ -18,6 +18,9 @@
 namespace lambent {
 namespace {
 
+// The cost of rays is learned from updates that trace at least this share of what they may.
+constexpr double kUsedShare = 0.5;
+
 /// Runs one pass under its name.
 template <class Pass>
 void run(FieldPasses& passes, const char* name, Pass pass) {
@@ -262,8 +265,10 @@ std::uint64_t IrradianceField::State::budget_after_edits(const UpdateRequest& re
   if (request.ray_budget != 0) left = request.ray_budget - std::min(request.ray_budget, spent);
   const double budget_ms = request.time_budget_ms;
   if (!(budget_ms > 0.0)) return left;
-  const double left_ms = edited ? budget_ms - spent_ms : time_for_work(budget_ms, spent_ms);
-  return left_ms > 0.0 ? std::min(left, scheduling.ray_cost.rays_within(left_ms)) : 0;
+  // Edits may take all of the time
+  const double left_ms = edited ? budget_ms - spent_ms : budget_ms;
+  if (!(left_ms > 0.0)) return 0;
+  return std::min(left, scheduling.ray_cost.rays_within(left_ms, edited ? 0.0 : spent_ms));
 }
 
 /// Chooses the probes that an update traces and draws their rays.
@@ -341,11 +346,13 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   s.end_warm_up(statistics);
   ++s.updates;
   statistics.states = s.scheduling.scheduler.states();
-  // Where fewer rays than the budget allows are needed, they say little of the cost of many
+  // Fewer rays than the budget allows say little of the cost of many, unless they take too long
   const std::uint64_t new_rays = statistics.probe_rays - edit_rays;
-  if (trace && 2 * new_rays >= left) {
+  const double took_ms = whole.ms();
+  const bool uses_budget = static_cast<double>(new_rays) >= kUsedShare * static_cast<double>(left);
+  if (trace && (uses_budget || took_ms > request.time_budget_ms)) {
     const double rays_ms = ms_of_rays(statistics) - earlier_ms;
-    s.scheduling.ray_cost.learn(new_rays, rays_ms, whole.ms() - rays_ms);
+    s.scheduling.ray_cost.learn(new_rays, rays_ms, took_ms - rays_ms);
   }
   return statistics;
 }

@@ -33,8 +33,9 @@ constexpr float kMaxEyeShareOfHeight = 0.6f;
 // is a thing, such as a rack of lamps.
 constexpr float kMinStreetGround = 10.0f;
 
-// Streets are in the lower part of a scene, up to this share of its height, wherever there are any:
-// higher up are the roofs of houses between taller ones.
+// Streets are looked for in the lower part of a scene first, up to this share of its height: higher
+// up are roofs of houses between taller ones. On hills, streets are higher than that, too, and
+// below a tower, roofs are lower.
 constexpr float kMaxStreetFloor = 0.5f;
 
 // An observer stands on the floor, not on a worktop, under a table or between shelves: where there
@@ -265,8 +266,8 @@ std::optional<Camera> street_view(const World& world, const SpaceSurvey& survey,
                        [&](const OpenPlace& place) {
                          return place.floor <= bounds.min.y + kMaxStreetFloor * size.y;
                        });
-  const bool all = low.sheltered.empty();
-  return inside_view(world, all ? streets : low, bounds, vertical_fov, aspect);
+  const auto view = inside_view(world, low, bounds, vertical_fov, aspect);
+  return view ? view : inside_view(world, streets, bounds, vertical_fov, aspect);
 }
 
 }  // namespace lambent

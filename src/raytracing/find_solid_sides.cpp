@@ -38,11 +38,15 @@ constexpr float kAround = 0.1f, kLeastAround = 1e-3f;
 
 /// Opens the regions of each grid that lead to open places of another one, over however many grids.
 void open_across(std::span<Places> places) {
-  for (bool any = true; any;) {
-    any = false;
-    for (Places& some : places) {
-      for (const Places& others : places) {
-        if (&others != &some) any |= some.open_towards(others);
+  // Grids are asked again as long as others have opened
+  std::vector<std::uint8_t> opened(places.size(), 1);
+  while (std::ranges::find(opened, 1) != opened.end()) {
+    const std::vector<std::uint8_t> asked =
+        std::exchange(opened, std::vector<std::uint8_t>(places.size(), 0));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      for (std::size_t other = 0; other < places.size(); ++other) {
+        if (asked[other] == 0 || other == i) continue;
+        if (places[i].open_towards(places[other])) opened[i] = 1;
       }
     }
   }
@@ -215,7 +219,10 @@ SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids
       dark_rooms |= some.open_rooms(
           [&](const Hit& hit) { return is_wall_of_room(scene, votes.front(), hit); });
     }
-    if (dark_rooms) votes = votes_of_open(scene, places, room);
+    if (dark_rooms) {
+      open_across(places);
+      votes = votes_of_open(scene, places, room);
+    }
   } else {
     votes.emplace_back(scene, asked, Voters::all);
   }

@@ -242,6 +242,22 @@ TEST(Denoise, SeesAStripBesideASurfaceOnceOnly) {
   }
 }
 
+TEST(Denoise, SeesNoStepTowardsPixelsWithoutASurface) {
+  // Where there is none, positions may be anything
+  std::vector<vec3> filtered[2];
+  for (const bool unknown : {false, true}) {
+    Wall wall(40, 40);
+    for (int x = 0; x < wall.width; ++x) {
+      const std::size_t sky = wall.at(x, 20);
+      wall.depths[sky] = 0.0f;
+      wall.positions[sky] = vec3(unknown ? std::numeric_limits<float>::quiet_NaN() : 0.0f);
+    }
+    wall.set_light([](int, int, float u) { return one_in_eight(u); });
+    filtered[unknown ? 1 : 0] = wall.filtered(geometric_denoising());
+  }
+  EXPECT_EQ(filtered[0], filtered[1]);
+}
+
 TEST(Denoise, AddsTheDetailOfTheBase) {
   Wall wall(80, 60);
   wall.base.resize(wall.light.size());

@@ -9,6 +9,9 @@
 namespace lambent {
 namespace {
 
+// The least share of a time that goes to work.
+constexpr double kLeastWorkShare = 0.5;
+
 // Weight of the newest measurement in a moving average.
 constexpr double kNewestShare = 0.2;
 
@@ -22,6 +25,12 @@ constexpr std::size_t kLeastSlice = 16;
 // The assumed cost of a probe before any was timed [ms], as on a slow processor.
 constexpr double kFirstProbeMs = 0.5;
 
+/// The whole part of a number, which may be infinite: at most what an int can count.
+std::uint64_t whole_number(double number) {
+  constexpr double kMost = std::numeric_limits<int>::max();
+  return number > 0.0 ? static_cast<std::uint64_t>(std::min(number, kMost)) : 0;
+}
+
 }  // namespace
 
 void MeasuredTime::learn(double ms) {
@@ -30,19 +39,20 @@ void MeasuredTime::learn(double ms) {
 }
 
 double time_for_work(double ms, double other_ms) {
-  return std::max(ms - other_ms, 0.5 * ms);
+  return std::max(ms - other_ms, kLeastWorkShare * ms);
 }
 
 void RayCost::learn(std::uint64_t rays, double rays_ms, double other_ms) {
   if (rays == 0) return;
-  ray_.learn(rays_ms / static_cast<double>(rays));
-  other_.learn(other_ms);
+  const bool measured = rays_ms > 0.0;
+  ray_.learn((measured ? rays_ms : other_ms) / static_cast<double>(rays));
+  other_.learn(measured ? std::max(other_ms, 0.0) : 0.0);
 }
 
-std::uint64_t RayCost::rays_within(double ms) const {
-  const double cost = ray_.is_known() ? ray_.ms() : kFirstGuessMs;
-  return std::max<std::uint64_t>(kRayClasses.front(),
-                                 static_cast<std::uint64_t>(time_for_work(ms, other_.ms()) / cost));
+std::uint64_t RayCost::rays_within(double ms, double spent_ms) const {
+  const double cost = ray_.ms() > 0.0 ? ray_.ms() : kFirstGuessMs;
+  const double rays = time_for_work(ms, spent_ms + other_.ms()) / cost;
+  return std::max(static_cast<std::uint64_t>(kRayClasses.front()), whole_number(rays));
 }
 
 void EditCost::learn_slice(std::size_t probes, double ms) {
@@ -51,8 +61,7 @@ void EditCost::learn_slice(std::size_t probes, double ms) {
 
 std::size_t EditCost::probes_within(double ms) const {
   const double cost = ms_per_probe_ > 0.0 ? ms_per_probe_ : kFirstProbeMs;
-  const double probes = std::min(ms / cost, static_cast<double>(std::numeric_limits<int>::max()));
-  return std::max(kLeastSlice, static_cast<std::size_t>(probes));
+  return std::max(kLeastSlice, static_cast<std::size_t>(whole_number(ms / cost)));
 }
 
 }  // namespace lambent

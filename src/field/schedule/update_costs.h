@@ -13,7 +13,6 @@ namespace lambent {
 class MeasuredTime {
  public:
   void learn(double ms);
-  bool is_known() const { return known_; }
   /// 0 while it is not known.
   double ms() const { return ms_; }
 
@@ -22,18 +21,21 @@ class MeasuredTime {
   bool known_ = false;
 };
 
-/// How much of a time [ms] is left for work, where all else takes `other_ms`: at least half of it,
-/// so that an update gets on even where all else takes longer than the whole time.
+/// How much of a time [ms] is left for work, where all else takes `other_ms`: at least half of it
+/// (kLeastWorkShare), so that an update gets on even where all else takes longer than the whole
+/// time.
 double time_for_work(double ms, double other_ms);
 
 /// The cost of tracing new rays.
 class RayCost {
  public:
   /// Learns from an update in which `rays` rays, with what is done for each of them, took `rays_ms`
-  /// and all else `other_ms` [ms].
+  /// and all else `other_ms` [ms]. Where the time of rays was not measured, which some devices
+  /// cannot, `rays_ms` is 0, and all of the time counts as theirs.
   void learn(std::uint64_t rays, double rays_ms, double other_ms);
-  /// The number of rays to trace in an update of this time: at least those of one probe.
-  std::uint64_t rays_within(double ms) const;
+  /// The number of rays to trace in an update that may take `ms` and has taken `spent_ms`: at least
+  /// those of one probe.
+  std::uint64_t rays_within(double ms, double spent_ms) const;
 
  private:
   MeasuredTime ray_;

@@ -23,6 +23,11 @@ constexpr int kAxes = 3;
 constexpr std::size_t kMinLeaving = 4;
 constexpr std::size_t kRaysOfLeaving = 5000;
 
+// A closed region is open, too, if at least kMinSeeing of its places see open ones of another grid,
+// and one in kPlacesOfSeeing of those that are within that grid: single ones see through cracks.
+constexpr std::size_t kMinSeeing = 4;
+constexpr std::size_t kPlacesOfSeeing = 50;
+
 // Greatest slope of the rays that find out whether a place has walls around it. Ceilings are
 // ignored, so that courts and roofless models count.
 constexpr float kMaxWallSlope = 0.5f;
@@ -41,11 +46,6 @@ constexpr int kEmitterPoints = 64, kEmitterRays = 4;
 constexpr float kHalfway = 0.5f;
 // Seed of their random numbers.
 constexpr std::uint32_t kEmitterSeed = 5;
-
-/// Whether a region is open of whose rays so many leave.
-bool leads_out(std::size_t leaving, std::size_t rays) {
-  return leaving >= kMinLeaving && leaving * kRaysOfLeaving >= rays;
-}
 
 }  // namespace
 
@@ -84,31 +84,41 @@ void Places::keep_open(const OpenPlaces& before) {
 
 bool Places::open_towards(const Places& other) {
   std::vector<Ray> ways;
-  std::vector<std::uint32_t> regions;
+  std::vector<std::size_t> from;  // the place of each way
   for (std::size_t place = 0; place < count(); ++place) {
     const vec3 here = grid_.position_ws(grid_.coords(place));
     if (open_[place] != 0 || !other.grid_.contains(here)) continue;
     for (const std::size_t there : other.grid_.places_around(here)) {
       if (other.open_[there] == 0) continue;
       ways.push_back(ray_between(other.grid_.position_ws(other.grid_.coords(there)), here));
-      regions.push_back(region_[place]);
+      from.push_back(place);
     }
   }
+  if (ways.empty()) return false;
   std::vector<std::uint8_t> occluded(ways.size());
   const RayTracer& tracer = tracer_of(world_);
   parallel_chunks(ways.size(), batch_of(tracer, 1, kPlacesPerTask * kRays),
                   [&](std::size_t begin, std::size_t end) {
                     tracer.occlusions({&ways[begin], end - begin}, {&occluded[begin], end - begin});
                   });
-  std::vector<std::size_t> all(regions_, 0), seen(regions_, 0);
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    ++all[regions[i]];
-    seen[regions[i]] += occluded[i] == 0 || ways[i].t_max == 0.0f ? 1 : 0;
+  // Count the places that see an open one: the ways of each stand together
+  std::vector<std::size_t> all(regions_, 0), seeing(regions_, 0);
+  for (std::size_t i = 0; i < ways.size();) {
+    const std::size_t place = from[i];
+    bool sees = false;
+    for (; i < ways.size() && from[i] == place; ++i) {
+      sees |= occluded[i] == 0 || ways[i].t_max == 0.0f;
+    }
+    ++all[region_[place]];
+    seeing[region_[place]] += sees ? 1 : 0;
   }
   bool any = false;
   for (std::size_t place = 0; place < count(); ++place) {
     const std::uint32_t region = region_[place];
-    if (open_[place] != 0 || !leads_out(seen[region], all[region])) continue;
+    if (open_[place] != 0 || seeing[region] < kMinSeeing ||
+        seeing[region] * kPlacesOfSeeing < all[region]) {
+      continue;
+    }
     open_[place] = 1;
     any = true;
   }
@@ -255,7 +265,7 @@ void Places::open_regions() {
     find_region(first, visited, region);
     std::size_t leaving = 0;
     for (const std::size_t place : region) leaving += leaving_[place];
-    const bool open = leads_out(leaving, region.size() * kRays);
+    const bool open = leaving >= kMinLeaving && leaving * kRaysOfLeaving >= region.size() * kRays;
     for (const std::size_t place : region) {
       open_[place] = open ? 1 : 0;
       region_[place] = static_cast<std::uint32_t>(regions_);

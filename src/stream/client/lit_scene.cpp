@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stream/client/lit_scene.h"
 
-#include <algorithm>
 #include <array>
 #include <variant>
 
@@ -17,7 +16,7 @@ Expected<void> LitScene::edit(const Edit& edit) {
 
 /// Poses the scene as the server's is at a time; below 0 none of its animations is played.
 Expected<void> LitScene::pose(float time_s) {
-  const float now_s = std::max(time_s, kRestTime);
+  const float now_s = time_s >= 0.0f ? time_s : kRestTime;
   if (now_s == time_s_) return {};
   time_s_ = now_s;
   if (now_s < 0.0f) {
