@@ -19,7 +19,7 @@ const LEAST_CHANGE = 6;
 
 const checks = new Checks();
 const browser = await launch();
-const server = new Server(program, ['--size', `${SIZE.width}x${SIZE.height}`, '--rate', '10']);
+const server = new Server(program, ['--size', `${SIZE.width}x${SIZE.height}`, '--rate', '4']);
 const url = await server.url();
 
 const page = await browser.newPage({ viewport: { width: SIZE.width + 2 * MARGIN, height: 900 }, deviceScaleFactor: 1 });
