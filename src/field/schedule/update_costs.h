@@ -57,8 +57,8 @@ class EditCost {
   std::size_t probes_within(double ms) const;
 
  private:
-  // Of the last slice alone: a probe takes ten times as long where rays are traced again as where
-  // just a light differs
+  // Of the last slice alone: a probe takes several times as long where rays are traced again as
+  // where just a light differs
   double ms_per_probe_ = 0.0;
   MeasuredTime other_;
 };
