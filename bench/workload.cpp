@@ -16,8 +16,8 @@
 #include "field/transport/surfels.h"
 #include "lambent/renderer.h"
 #include "raytracing/camera_rays.h"
-#include "raytracing/find_solid_sides.h"
 #include "raytracing/shade_hits.h"
+#include "raytracing/solid_sides/find_solid_sides.h"
 #include "raytracing/world_access.h"
 
 namespace lambent::bench {

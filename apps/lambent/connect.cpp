@@ -156,9 +156,7 @@ Expected<void> receive_frames(const ConnectOptions& options, stream::Client& cli
 
 Expected<void> check_connect_output(const ConnectOptions& options) {
   if (options.scene.file.empty()) return check_output(options.output, {".png"});
-  if (const auto fine = check_output(options.output, {".png", ".jpg", ".jpeg", ".exr"}); !fine) {
-    return fine;
-  }
+  if (const auto fine = check_output(options.output, kFrameEndings); !fine) return fine;
   if (const auto can = check_layers(options.layers, options.output); !can) return can;
   const auto exposure = parse_exposure(options.exposure);
   if (!exposure) return tl::unexpected(exposure.error());

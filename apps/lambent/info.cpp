@@ -15,7 +15,7 @@
 #include "lambent/scene.h"
 #include "lambent/words.h"
 #include "lambent/world.h"
-#include "raytracing/find_solid_sides.h"
+#include "raytracing/solid_sides/find_solid_sides.h"
 #include "scene/attributes.h"
 
 namespace lambent::cli {

@@ -13,6 +13,10 @@ namespace lambent::cli {
 /// File endings of display-encoded pictures.
 inline constexpr std::initializer_list<const char*> kPictureEndings = {".png", ".jpg", ".jpeg"};
 
+/// File endings of rendered pictures.
+inline constexpr std::initializer_list<const char*> kFrameEndings = {".png", ".jpg", ".jpeg",
+                                                                     ".exr"};
+
 /// Fails where a file could not be written, including folders that would have to be made. To be
 /// called before any work is done. Creates nothing.
 Expected<void> check_place(const std::string& path);

@@ -43,7 +43,7 @@ std::string frame_path(const std::string& pattern, int frame) {
 }
 
 Expected<void> check_outputs(const RenderOptions& options) {
-  const auto fine = check_output(options.output, {".png", ".jpg", ".jpeg", ".exr"});
+  const auto fine = check_output(options.output, kFrameEndings);
   if (!fine) return fine;
   if (const auto can = check_layers(options.layers, options.output); !can) return can;
   const std::string first = options.frames > 0 ? frame_path(options.output, 0) : options.output;

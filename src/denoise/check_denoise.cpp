@@ -97,7 +97,7 @@ std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has
     pass.lobe_scale = inverse_share * inverse_share;
     const bool first = i < settings.geometric_passes;
     pass.geometric = first && !(tells_edges && i > 0) ? 1 : 0;
-    // Where light is compared, that of a step is told from what is beside it
+    // Passes that compare light keep that of a strip from the surface beside it by its brightness
     pass.checks_steps = !measured && settings.geometric_passes == settings.passes ? 1 : 0;
     pass.ends_estimate = !measured && i == settings.geometric_passes - 1 ? 1 : 0;
     pass.only_spread = knows_noise && i == 0 ? 1 : 0;

@@ -23,17 +23,18 @@ LAMBENT_REAL_FN Real difference_of_surfaces(AtrousPass by, AtrousGuide here, Rea
   return by.normal_sharpness * (1.0f - cosine) + off_plane * off_plane;
 }
 
-/// Exponent of a neighbour's weight by the step, if any, between it and the pixel `before` it,
-/// which is next to it on the way to the filtered pixel, or is that pixel. A strip that stands out
-/// less than the plane's tolerance has some weight for pixels beyond it, but not enough to share
-/// its light with all of those between: each pass would show it once more, as lines 4, 8 and 16
-/// pixels away.
+/// Exponent of a neighbour's weight by the step (a discontinuity of depth), if any, between it and
+/// the pixel `before` it, which is next to it on the way to the filtered pixel, or is that pixel. A
+/// strip that stands out less than the plane's tolerance has some weight for pixels beyond it, but
+/// not enough to share its light with all of those between: each pass would show it once more, as
+/// lines 4, 8 and 16 pixels away.
 LAMBENT_REAL_FN Real step_before(AtrousGuide neighbour, AtrousGuide before) {
   Real3 way = before.position_ws - neighbour.position_ws;
   Real height = dot(neighbour.normal_ws, way);
   // Pixels without a surface have no normal, and their position means nothing
-  return zero_unless_positive(dot(before.normal_ws, before.normal_ws),
-                              kStepSharpness * height * height / (dot(way, way) + kTiniestWay));
+  return zero_unless_positive(
+      dot(before.normal_ws, before.normal_ws),
+      kStepSharpness * height * height / (dot(way, way) + kLeastSquaredDistance));
 }
 
 /// The variance that the difference of two pixels' luminance is compared with. The variance of the

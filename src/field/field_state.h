@@ -95,7 +95,7 @@ struct IrradianceField::State {
 
   /// Brings stale probes up to date with the world, and solves for the light that results. Spends
   /// about the budget, on important probes or those near the viewer first.
-  EditProgress apply_scene_edits(const World& world, EditBudget budget,
+  EditProgress apply_scene_edits(const World& world, const EditBudget& budget,
                                  const std::optional<vec3>& viewer_ws,
                                  UpdateStatistics& statistics);
   /// Finds the stale probes. Those that cannot be brought up to date start their average again.

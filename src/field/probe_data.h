@@ -14,7 +14,7 @@
 #include "field/transport/solve_bounces.h"
 #include "field/transport/surfels.h"
 #include "lambent/field.h"
-#include "raytracing/solid_sides.h"
+#include "raytracing/solid_sides/solid_sides.h"
 
 namespace lambent {
 

@@ -346,11 +346,12 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   s.end_warm_up(statistics);
   ++s.updates;
   statistics.states = s.scheduling.scheduler.states();
-  // Fewer rays than the budget allows say little of the cost of many, unless they take too long
+  // Fewer rays than the budget allows say little of the cost of many, unless they exceed its time
   const std::uint64_t new_rays = statistics.probe_rays - edit_rays;
   const double took_ms = whole.ms();
   const bool uses_budget = static_cast<double>(new_rays) >= kUsedShare * static_cast<double>(left);
-  if (trace && (uses_budget || took_ms > request.time_budget_ms)) {
+  const bool too_long = request.time_budget_ms > 0.0 && took_ms > request.time_budget_ms;
+  if (trace && (uses_budget || too_long)) {
     const double rays_ms = ms_of_rays(statistics) - earlier_ms;
     s.scheduling.ray_cost.learn(new_rays, rays_ms, took_ms - rays_ms);
   }

@@ -6,6 +6,7 @@
 #include "first_picture/views.h"
 #include "lambent/first_picture.h"
 #include "raytracing/camera_rays.h"
+#include "raytracing/trace_rays.h"
 #include "raytracing/world_access.h"
 #include "scene/light_sampling.h"
 

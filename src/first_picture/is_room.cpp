@@ -4,6 +4,7 @@
 
 #include "first_picture/subject.h"
 #include "first_picture/survey.h"
+#include "raytracing/trace_rays.h"
 #include "shared/constants.h"
 #include "shared/rays.h"
 

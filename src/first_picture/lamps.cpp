@@ -6,6 +6,7 @@
 
 #include "first_picture/subject.h"
 #include "first_picture/survey.h"
+#include "raytracing/trace_rays.h"
 #include "scene/limits.h"
 #include "shared/rays.h"
 

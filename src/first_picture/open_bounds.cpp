@@ -7,8 +7,8 @@
 
 #include "first_picture/subject.h"
 #include "lambent/world.h"
-#include "raytracing/find_solid_sides.h"
 #include "raytracing/raytracer.h"
+#include "raytracing/solid_sides/find_solid_sides.h"
 #include "raytracing/world_access.h"
 
 namespace lambent {

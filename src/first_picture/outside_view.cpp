@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "first_picture/views.h"
+#include "raytracing/trace_rays.h"
 #include "shared/rays.h"
 
 namespace lambent {

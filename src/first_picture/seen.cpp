@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 #include "first_picture/survey.h"
 #include "raytracing/surface.h"
+#include "raytracing/trace_rays.h"
 #include "raytracing/world_access.h"
 #include "scene/attributes.h"
 #include "shared/random.h"

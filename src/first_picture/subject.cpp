@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "first_picture/subject.h"
+#include "raytracing/trace_rays.h"
 
 #include <algorithm>
 

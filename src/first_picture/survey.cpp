@@ -4,17 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/parallel.h"
-#include "raytracing/world_access.h"
+#include "raytracing/trace_rays.h"
 #include "shared/random.h"
 #include "shared/rays.h"
 #include "shared/sampling.h"
 
 namespace lambent {
 namespace {
-
-// Rays that one task traces: enough to hide the task's overhead.
-constexpr std::size_t kRaysPerTask = 128;
 
 // Seeds of the two random sequences: arbitrary, but fixed.
 constexpr std::uint32_t kSurfaceSeed = 1;
@@ -85,26 +81,6 @@ std::vector<Ray> rays_around(const glm::vec3& place_ws, int count, float reach) 
                     spherical_fibonacci(static_cast<uint>(i), static_cast<uint>(count)), reach});
   }
   return rays;
-}
-
-std::vector<Hit> trace(const World& world, std::span<const Ray> rays) {
-  std::vector<Hit> hits(rays.size());
-  const std::size_t chunk = std::max(kRaysPerTask, tracer_of(world).batch_rays());
-  parallel_chunks(rays.size(), chunk, [&](std::size_t begin, std::size_t end) {
-    tracer_of(world).closest_hits(rays.subspan(begin, end - begin),
-                                  std::span(hits).subspan(begin, end - begin));
-  });
-  return hits;
-}
-
-std::vector<std::uint8_t> trace_occlusion(const World& world, std::span<const Ray> rays) {
-  std::vector<std::uint8_t> occluded(rays.size());
-  const std::size_t chunk = std::max(kRaysPerTask, tracer_of(world).batch_rays());
-  parallel_chunks(rays.size(), chunk, [&](std::size_t begin, std::size_t end) {
-    tracer_of(world).occlusions(rays.subspan(begin, end - begin),
-                                std::span(occluded).subspan(begin, end - begin));
-  });
-  return occluded;
 }
 
 std::vector<SurfaceSample> sample_surfaces(const Scene& scene,

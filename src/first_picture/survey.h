@@ -28,12 +28,6 @@ std::vector<SurfaceSample> sample_surfaces(const Scene& scene,
 /// Rays in `count` directions that cover the sphere evenly, `reach` long [m].
 std::vector<Ray> rays_around(const glm::vec3& place_ws, int count, float reach = kInfiniteDistance);
 
-/// The nearest hit of each ray. Uses all cores.
-std::vector<Hit> trace(const World& world, std::span<const Ray> rays);
-
-/// 1 for each occluded ray. Uses all cores.
-std::vector<std::uint8_t> trace_occlusion(const World& world, std::span<const Ray> rays);
-
 /// Whether a hit shows the back of a surface. Two-sided surfaces have no back, whatever their
 /// winding.
 bool shows_back(const Scene& scene, const Hit& hit);

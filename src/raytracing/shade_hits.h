@@ -9,7 +9,7 @@
 #include "raytracing/direct_light.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/shaded_hit.h"
-#include "raytracing/solid_sides.h"
+#include "raytracing/solid_sides/solid_sides.h"
 
 namespace lambent {
 

@@ -19,6 +19,7 @@ const LEAST_CHANGE = 6;
 
 const checks = new Checks();
 const browser = await launch();
+// At ten pictures a second, a busy machine of two cores makes them smaller than what they are compared with
 const server = new Server(program, ['--size', `${SIZE.width}x${SIZE.height}`, '--rate', '4']);
 const url = await server.url();
 

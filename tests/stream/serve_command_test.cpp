@@ -104,14 +104,21 @@ TEST(ServeCommand, ServesPicturesUntilItIsTerminated) {
                   directory.file("many.png") + " --eye 2.7,2.7,-5 --target 2.7,2.7,0");
   EXPECT_EQ(more.status, 0) << more.errors;
   EXPECT_EQ(directory.entries(), 4u);
+  const std::string layers = directory.file("layers.exr");
+  const ProgramResult own = run_program("connect " + server.host() + " --scene cornell-spot -o " +
+                                        layers + " --layers --size 32x18 --materials lambert");
+  EXPECT_EQ(own.status, 0) << own.errors;
+  const auto layered = read_image(layers);
+  ASSERT_TRUE(layered);
+  EXPECT_NE(layered->find("indirect"), nullptr);
   // Another scene than the server's is not lit by its light
   const ProgramResult other =
       run_program("connect " + server.host() + " --scene atrium -o " + directory.file("other.png"));
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.errors, HasSubstr("serves another scene"));
-  EXPECT_EQ(directory.entries(), 4u);
+  EXPECT_EQ(directory.entries(), 5u);
   EXPECT_EQ(server.end(SIGTERM), 0);
-  EXPECT_THAT(server.said(), HasSubstr("served 3 clients with"));
+  EXPECT_THAT(server.said(), HasSubstr("served 4 clients with"));
 }
 
 TEST(ServeCommand, AnInterruptEndsItAsWell) {
@@ -234,6 +241,16 @@ TEST(ConnectCommand, TellsWhatIsWrong) {
   EXPECT_THAT(nobody.errors, HasSubstr("127.0.0.1:1"));
   EXPECT_EQ(run_program("connect localhost:99999" + out).status, 2);
   EXPECT_EQ(run_program("connect localhost -o a.exr").status, 2);
+  const auto refused = [&](const std::string& arguments, const std::string& why) {
+    const ProgramResult result = run_program("connect " + arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_THAT(result.errors, HasSubstr(why)) << arguments;
+  };
+  refused("ftp://localhost" + out, "neither http://");
+  refused("localhost:8080/stream" + out, "has a path");
+  refused("localhost --token-file " + directory.file("none") + out, "no such file");
+  refused("localhost --scene cornell --layers" + out, ".exr");
+  refused("localhost --exposure 1" + out, "--scene");
   EXPECT_EQ(run_program("connect localhost --eye 1,2,3" + out).status, 2);
   EXPECT_EQ(directory.entries(), 0u);
 }

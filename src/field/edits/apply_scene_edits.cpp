@@ -277,8 +277,9 @@ double IrradianceField::State::apply_edits_in_slices(const World& world, const E
   while (!stale.waiting.empty() && spent < budget.rays && spent_ms < kTimeSpent * budget.ms) {
     const bool first = edits.pending.updated.empty() && updated.empty();
     const double ms = first ? kFirstSliceShare * budget.ms : budget.ms - spent_ms;
-    const Slice slice = next_slice(stale.waiting, data.traces, statuses,
-                                   {budget.rays - spent, scheduling.edit_cost.probes_within(ms)});
+    const StaleSlice slice =
+        next_slice(stale.waiting, data.traces, statuses,
+                   {budget.rays - spent, scheduling.edit_cost.probes_within(ms)});
     const std::vector<WorldChanges> changes = *world.changes_since(slice.oldest);
     WorkingIrradiance history_ratio = history_ratio_of(slice.probes, data);
     watch.finish(field_pass::kSolve);
@@ -317,11 +318,12 @@ void IrradianceField::State::darken_sleeping() {
   }
 }
 
-EditProgress IrradianceField::State::apply_scene_edits(const World& world, EditBudget budget,
+EditProgress IrradianceField::State::apply_scene_edits(const World& world, const EditBudget& budget,
                                                        const std::optional<vec3>& viewer_ws,
                                                        UpdateStatistics& statistics) {
   PassTimer watch(statistics.passes);
   const Stopwatch whole;
+  EditBudget left = budget;
   const std::uint64_t revision = world.revision();
   if (edits.applied_revision == revision && edits.stale_sleeping.empty()) return EditProgress::none;
   if (edits.applied_revision > revision) {
@@ -356,14 +358,14 @@ EditProgress IrradianceField::State::apply_scene_edits(const World& world, EditB
     }
     watch.finish(field_pass::kSolve);
     scheduling.edit_cost.learn_other(whole.ms() - slices_ms);
-    budget.ms -= slices_ms;
+    left.ms -= slices_ms;
     statistics.probes_stale = static_cast<int>(stale.waiting.size() + edits.stale_sleeping.size());
     if (!stale.waiting.empty()) return EditProgress::partial;
   }
   if (!edits.pending.before.empty()) reduce_history();
   edits.pending = {};
   edits.applied_revision = revision;
-  apply_edits_to_sleeping(world, budget, stale.traced, statistics);
+  apply_edits_to_sleeping(world, left, stale.traced, statistics);
   statistics.probes_stale = static_cast<int>(edits.stale_sleeping.size());
   return any ? EditProgress::complete : EditProgress::none;
 }

@@ -13,9 +13,9 @@ constexpr std::uint64_t kOverdueRevisions = 16;
 
 }  // namespace
 
-Slice next_slice(std::span<const int> waiting, std::span<const ProbeTrace> traces,
-                 std::span<const ProbeStatus> statuses, const SliceLimit& most) {
-  Slice slice;
+StaleSlice next_slice(std::span<const int> waiting, std::span<const ProbeTrace> traces,
+                      std::span<const ProbeStatus> statuses, const SliceLimit& most) {
+  StaleSlice slice;
   slice.oldest = statuses[waiting.front()].revision;
   std::uint64_t surfels = 0;
   for (const int probe : waiting.first(std::min(waiting.size(), most.probes))) {

@@ -16,7 +16,7 @@
 namespace lambent {
 
 /// Some stale probes that are brought up to date together.
-struct Slice {
+struct StaleSlice {
   std::vector<int> probes;
   std::uint64_t oldest = 0;  ///< The oldest revision that any of them is up to date with.
 };
@@ -28,8 +28,8 @@ struct SliceLimit {
 };
 
 /// Takes the first waiting probes: at least one, and otherwise no more than the limit.
-Slice next_slice(std::span<const int> waiting, std::span<const ProbeTrace> traces,
-                 std::span<const ProbeStatus> statuses, const SliceLimit& most);
+StaleSlice next_slice(std::span<const int> waiting, std::span<const ProbeTrace> traces,
+                      std::span<const ProbeStatus> statuses, const SliceLimit& most);
 
 /// Sorts stale probes by how urgently they must be brought up to date: overdue ones come first, so
 /// that no probe stays stale for ever in a world that is edited continually. Then come probes by

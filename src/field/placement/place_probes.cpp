@@ -10,9 +10,9 @@
 #include "field/transport/distances.h"
 #include "lambent/world.h"
 #include "raytracing/boxes.h"
-#include "raytracing/find_solid_sides.h"
 #include "raytracing/places/closed_regions.h"
 #include "raytracing/places/places.h"
+#include "raytracing/solid_sides/find_solid_sides.h"
 #include "raytracing/world_access.h"
 
 namespace lambent {

@@ -11,7 +11,7 @@
 #include "field/probe_data.h"
 #include "field/schedule/schedule.h"
 #include "lambent/world.h"
-#include "raytracing/solid_sides.h"
+#include "raytracing/solid_sides/solid_sides.h"
 
 namespace lambent {
 

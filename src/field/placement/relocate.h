@@ -11,7 +11,7 @@
 #include "field/probes/probe_store.h"
 #include "lambent/scene.h"
 #include "raytracing/raytracer.h"
-#include "raytracing/solid_sides.h"
+#include "raytracing/solid_sides/solid_sides.h"
 
 namespace lambent {
 

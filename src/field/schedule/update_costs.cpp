@@ -25,6 +25,12 @@ constexpr std::size_t kLeastSlice = 16;
 // The assumed cost of a probe before any was timed [ms], as on a slow processor.
 constexpr double kFirstProbeMs = 0.5;
 
+/// How much of a time [ms] is left for work, where all else takes `other_ms`: at least
+/// kLeastWorkShare of it, so that an update gets on even where all else takes longer than that.
+double time_for_work(double ms, double other_ms) {
+  return std::max(ms - other_ms, kLeastWorkShare * ms);
+}
+
 /// The whole part of a number, which may be infinite: at most what an int can count.
 std::uint64_t whole_number(double number) {
   constexpr double kMost = std::numeric_limits<int>::max();
@@ -36,10 +42,6 @@ std::uint64_t whole_number(double number) {
 void MeasuredTime::learn(double ms) {
   ms_ = known_ ? ms_ + kNewestShare * (ms - ms_) : ms;
   known_ = true;
-}
-
-double time_for_work(double ms, double other_ms) {
-  return std::max(ms - other_ms, kLeastWorkShare * ms);
 }
 
 void RayCost::learn(std::uint64_t rays, double rays_ms, double other_ms) {
@@ -57,6 +59,10 @@ std::uint64_t RayCost::rays_within(double ms, double spent_ms) const {
 
 void EditCost::learn_slice(std::size_t probes, double ms) {
   if (probes > 0) ms_per_probe_ = ms / static_cast<double>(probes);
+}
+
+double EditCost::time_left(double ms, double spent_ms) const {
+  return time_for_work(ms, spent_ms + other_.ms());
 }
 
 std::size_t EditCost::probes_within(double ms) const {

@@ -21,11 +21,6 @@ class MeasuredTime {
   bool known_ = false;
 };
 
-/// How much of a time [ms] is left for work, where all else takes `other_ms`: at least half of it
-/// (kLeastWorkShare), so that an update gets on even where all else takes longer than the whole
-/// time.
-double time_for_work(double ms, double other_ms);
-
 /// The cost of tracing new rays.
 class RayCost {
  public:
@@ -50,9 +45,7 @@ class EditCost {
   /// Learns from what else applying edits took, such as solving for the light that results.
   void learn_other(double ms) { other_.learn(ms); }
   /// The time for such probes [ms], in an update that may take `ms` and has taken `spent_ms`.
-  double time_left(double ms, double spent_ms) const {
-    return time_for_work(ms, spent_ms + other_.ms());
-  }
+  double time_left(double ms, double spent_ms) const;
   /// The number of probes that can be brought up to date in this time: at least a few.
   std::size_t probes_within(double ms) const;
 

@@ -7,7 +7,7 @@
 
 #include "lambent/scene.h"
 #include "lambent/world.h"
-#include "raytracing/solid_sides.h"
+#include "raytracing/solid_sides/solid_sides.h"
 
 namespace lambent {
 

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/parallel.h"
+#include "raytracing/trace_rays.h"
 #include "raytracing/world_access.h"
 #include "scene/light_sampling.h"
 #include "shared/random.h"
@@ -95,12 +96,7 @@ bool Places::open_towards(const Places& other) {
     }
   }
   if (ways.empty()) return false;
-  std::vector<std::uint8_t> occluded(ways.size());
-  const RayTracer& tracer = tracer_of(world_);
-  parallel_chunks(ways.size(), batch_of(tracer, 1, kPlacesPerTask * kRays),
-                  [&](std::size_t begin, std::size_t end) {
-                    tracer.occlusions({&ways[begin], end - begin}, {&occluded[begin], end - begin});
-                  });
+  const std::vector<std::uint8_t> occluded = trace_occlusion(world_, ways);
   // Count the places that see an open one: the ways of each stand together
   std::vector<std::size_t> all(regions_, 0), seeing(regions_, 0);
   for (std::size_t i = 0; i < ways.size();) {
@@ -219,11 +215,7 @@ void Places::look_across() {
       rays[place * kAxes + axis] = ray_between(grid_.position_ws(here), grid_.position_ws(there));
     }
   }
-  const RayTracer& tracer = tracer_of(world_);
-  parallel_chunks(rays.size(), batch_of(tracer, 1, kPlacesPerTask * kAxes),
-                  [&](std::size_t begin, std::size_t end) {
-                    tracer.occlusions({&rays[begin], end - begin}, {&joined_[begin], end - begin});
-                  });
+  joined_ = trace_occlusion(world_, rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     joined_[i] = joined_[i] == 0 && rays[i].t_max > 0.0f ? 1 : 0;
   }
@@ -238,8 +230,7 @@ void Places::mark_around(std::span<const vec3> points_ws, std::uint32_t rays) {
       places.push_back(place);
     }
   }
-  std::vector<std::uint8_t> occluded(ways.size());
-  tracer_of(world_).occlusions(ways, occluded);
+  const std::vector<std::uint8_t> occluded = trace_occlusion(world_, ways);
   for (std::size_t i = 0; i < ways.size(); ++i) {
     if (occluded[i] == 0 || ways[i].t_max == 0.0f) leaving_[places[i]] += rays;
   }
@@ -315,8 +306,7 @@ std::vector<vec3> points_lit_by_emitters(const World& world) {
           {offset_ray_origin(position_ws, side), 0.0f, direction, kInfiniteDistance, kRayOfProbe});
     }
   }
-  std::vector<Hit> hits(rays.size());
-  tracer_of(world).closest_hits(rays, hits);
+  const std::vector<Hit> hits = trace(world, rays);
   std::vector<vec3> points;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits[i].missed()) continue;
@@ -338,8 +328,7 @@ bool lights_closed_places(const World& world, std::span<const OpenPlaces> open_s
       }
     }
   }
-  std::vector<std::uint8_t> occluded(ways.size());
-  tracer_of(world).occlusions(ways, occluded);
+  const std::vector<std::uint8_t> occluded = trace_occlusion(world, ways);
   constexpr std::size_t kCorners = 8;  // places around each point
   for (std::size_t first = 0; first < ways.size(); first += kCorners) {
     bool sees_open = false, sees_closed = false;
@@ -366,8 +355,7 @@ std::vector<std::uint8_t> see_open_places(const World& world,
       }
     }
   }
-  std::vector<std::uint8_t> occluded(ways.size());
-  tracer_of(world).occlusions(ways, occluded);
+  const std::vector<std::uint8_t> occluded = trace_occlusion(world, ways);
   std::vector<std::uint8_t> sees(points_ws.size(), 0);
   for (std::size_t r = 0; r < ways.size(); ++r) {
     if (occluded[r] == 0) sees[points[r]] = 1;

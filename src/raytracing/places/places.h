@@ -11,7 +11,7 @@
 
 #include "lambent/world.h"
 #include "raytracing/raytracer.h"
-#include "raytracing/solid_sides.h"
+#include "raytracing/solid_sides/solid_sides.h"
 
 namespace lambent {
 
@@ -34,8 +34,8 @@ class Places {
   /// Opens the regions most of which were open before, with the same scene but for its lights: a
   /// room whose lamp is off is still a room.
   void keep_open(const OpenPlaces& before);
-  /// Opens the regions that see open places of another grid: a tunnel leads out of the box of a
-  /// grid, and what is open may lie beyond it. Returns whether there are any.
+  /// Opens the regions of which some places see open places of another grid: a tunnel may lead to
+  /// open space beyond the box of its grid. Returns whether there are any.
   bool open_towards(const Places& other);
   /// Opens the regions of which nearly all rays hit walls, `is_wall(hit)`: dark rooms. Returns
   /// whether there are any.

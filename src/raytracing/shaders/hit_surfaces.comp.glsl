@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "raytracing/shaders/sky.glsl"
 #include "raytracing/shaders/surface_at.glsl"
-#include "raytracing/solid_sides_math.h"
+#include "raytracing/solid_sides/solid_sides_math.h"
 #include "raytracing/vulkan/shading_records.h"
 
 layout(local_size_x = 64) in;

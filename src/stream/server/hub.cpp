@@ -81,7 +81,7 @@ std::string Hub::stats_json() const {
   json["state"] = now.state;
   json["update_ms"] = now.update_ms;
   json["updates_per_s"] = now.rate;
-  json["probes_stale"] = now.probes_stale;
+  if (!now.light_from) json["probes_stale"] = now.probes_stale;
   json["pictures"] = now.pictures;
   json["picture_ms"] = now.picture_ms;
   json["light_bytes"] = now.light_bytes;

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "lambent/world.h"
-#include "raytracing/solid_sides.h"
+#include "raytracing/solid_sides/solid_sides.h"
 
 namespace lambent {
 

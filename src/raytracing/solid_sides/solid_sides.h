@@ -9,7 +9,7 @@
 
 #include "lambent/scene.h"
 #include "raytracing/raytracer.h"
-#include "raytracing/solid_sides_math.h"
+#include "raytracing/solid_sides/solid_sides_math.h"
 
 namespace lambent {
 

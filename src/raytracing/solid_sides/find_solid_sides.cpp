@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "raytracing/find_solid_sides.h"
+#include "raytracing/solid_sides/find_solid_sides.h"
 
 #include <algorithm>
 #include <cmath>

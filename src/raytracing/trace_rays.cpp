@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raytracing/trace_rays.h"
+
+#include <algorithm>
+
+#include "core/parallel.h"
+#include "raytracing/world_access.h"
+
+namespace lambent {
+namespace {
+
+// Rays that one task traces: enough to hide the task's overhead.
+constexpr std::size_t kRaysPerTask = 128;
+
+}  // namespace
+
+std::vector<Hit> trace(const World& world, std::span<const Ray> rays) {
+  std::vector<Hit> hits(rays.size());
+  const std::size_t chunk = std::max(kRaysPerTask, tracer_of(world).batch_rays());
+  parallel_chunks(rays.size(), chunk, [&](std::size_t begin, std::size_t end) {
+    tracer_of(world).closest_hits(rays.subspan(begin, end - begin),
+                                  std::span(hits).subspan(begin, end - begin));
+  });
+  return hits;
+}
+
+std::vector<std::uint8_t> trace_occlusion(const World& world, std::span<const Ray> rays) {
+  std::vector<std::uint8_t> occluded(rays.size());
+  const std::size_t chunk = std::max(kRaysPerTask, tracer_of(world).batch_rays());
+  parallel_chunks(rays.size(), chunk, [&](std::size_t begin, std::size_t end) {
+    tracer_of(world).occlusions(rays.subspan(begin, end - begin),
+                                std::span(occluded).subspan(begin, end - begin));
+  });
+  return occluded;
+}
+
+}  // namespace lambent

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Traces rays on all cores.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lambent/world.h"
+#include "raytracing/raytracer.h"
+
+namespace lambent {
+
+/// The nearest hit of each ray.
+std::vector<Hit> trace(const World& world, std::span<const Ray> rays);
+
+/// 1 for each occluded ray.
+std::vector<std::uint8_t> trace_occlusion(const World& world, std::span<const Ray> rays);
+
+}  // namespace lambent
