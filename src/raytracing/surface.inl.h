@@ -190,23 +190,14 @@ LAMBENT_FN ConeShare cone_share_of(Footprint footprint, float double_area) {
   return share;
 }
 
-/// Variance of the slopes of the bumps that a footprint averages over; 0 where there are none.
-LAMBENT_FN float averaged_slopes(SceneRef scene, MeshRef mesh, MaterialRef material,
-                                 TrianglePointRef p, ConeShare cone_share, BentNormal bent) {
-  if (cone_share.blended == 0u || cone_share.of_triangle <= 0.0f) return 0.0f;
-  CornerUvs uvs = corner_uvs(mesh, material.normal_texture, p);
-  if (!uvs.present) return 0.0f;
-  float level = blended_level(scene, material.normal_texture, uvs, cone_share);
-  return level > 0.0f ? slope_variance(bent.mean, bent.spread, material.normal_scale) : 0.0f;
-}
-
-/// optics_at(), with a coat that is rougher where bumps are averaged over.
+/// optics_at(), with a coat that is rougher where bumps are averaged over, of which most scatter by
+/// `spread`.
 LAMBENT_FN Optics bumpy_optics_at(SceneRef scene, MeshRef mesh, MaterialRef material,
-                                  TrianglePointRef p, ConeShare cone_share, BentNormal bent) {
+                                  TrianglePointRef p, ConeShare cone_share, float spread) {
   Optics optics = optics_at(scene, mesh, material, p, cone_share);
-  if (material.normal_texture.texture >= 0) {
-    float slopes = averaged_slopes(scene, mesh, material, p, cone_share, bent);
-    optics.reflectance.alpha = widened_alpha(optics.reflectance.alpha, slopes);
+  if (cone_share.blended != 0u) {
+    optics.reflectance.alpha =
+        widened_alpha(optics.reflectance.alpha, spread * material.normal_scale);
   }
   return optics;
 }
@@ -263,7 +254,7 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
   surface.normal_ws =
       seen_normal(facing, normal_from_object * bent.normal, material.normal_texture);
 
-  Optics optics = bumpy_optics_at(scene, mesh, material, p, cone_share, bent);
+  Optics optics = bumpy_optics_at(scene, mesh, material, p, cone_share, bent.spread);
   surface.reflectance = optics.reflectance;
   surface.emission = emission_at(scene, mesh, material, p, cone_share);
   if (has_clearcoat(surface.reflectance.layers)) {

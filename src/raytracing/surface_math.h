@@ -4,7 +4,6 @@
 #define LAMBENT_RAYTRACING_SURFACE_MATH_H
 
 #include "shared/brdf.h"
-#include "shared/bumps.h"
 
 LAMBENT_BEGIN
 
@@ -92,21 +91,18 @@ LAMBENT_FN vec3 map_vector(vec3 texel, float normal_scale) {
   return vec3(n.x * normal_scale, n.y * normal_scale, n.z);
 }
 
-/// Variance of the slopes, along each axis, of bumps with this mean of map_vector(). `spread`: how
-/// far most of the normals scatter, see build_normal_mips(): a few steep ones widen no lobe.
-LAMBENT_FN float slope_variance(vec3 mean, float spread, float normal_scale) {
-  float scale = max(abs(normal_scale), kLengthRounding);
-  float mean_length = length(vec3(mean.x / scale, mean.y / scale, mean.z));
-  float variance = min(variance_of_slopes(mean_length), spread * spread);
-  return variance * normal_scale * normal_scale;
-}
+// Square of a GGX width over the variance of normally distributed slopes, half of which are within
+// the same distance: 2 ln 2. Where their peaks are equal it is 2, and where three quarters of them
+// are, 0.9.
+const float kGgxOverVariance = 1.3862944f;
 
-/// GGX width of a coat over bumps whose slopes have this variance. Toksvig, "Mipmapping Normal
-/// Maps", 2004; Kaplanyan et al., "Filtering Distributions of Normals for Shading Antialiasing",
-/// HPG 2016, Eq. 6: the squares of widths add up.
-LAMBENT_FN float widened_alpha(float alpha, float slope_variance) {
-  if (slope_variance <= 0.0f) return alpha;
-  return min(sqrt(alpha * alpha + 2.0f * slope_variance), max(alpha, 1.0f));
+/// GGX width of a coat over bumps of which most deviate from their mean by `spread` along each
+/// axis, see build_normal_mips(): a few steep ones widen no lobe. The squares of widths add up:
+/// Toksvig, "Mipmapping Normal Maps", 2004; Kaplanyan et al., "Filtering Distributions of Normals
+/// for Shading Antialiasing", HPG 2016, Eq. 6.
+LAMBENT_FN float widened_alpha(float alpha, float spread) {
+  if (spread == 0.0f) return alpha;
+  return min(sqrt(alpha * alpha + kGgxOverVariance * spread * spread), max(alpha, 1.0f));
 }
 
 /// The normal for a normal map's vector, in the space of the unit vectors normal and tangent.

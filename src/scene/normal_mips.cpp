@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 
 #include "scene/texture.h"
-#include "shared/bumps.h"
 #include "shared/color.h"
 #include "shared/sampling.h"
 
@@ -19,8 +19,8 @@ namespace {
 // Most normals along each axis of which a coarse texel's spread is measured.
 constexpr int kSamples = 4;
 constexpr std::size_t kMostNormals = std::size_t{kSamples} * kSamples;
-// Texels over this many normals along each axis are the first whose spread is measured: four
-// normals are too few to tell most of them from others.
+// Most normals are told from others in texels over at least this many along an axis: four normals
+// are too few.
 constexpr int kFewestNormals = 4;
 // Median of the squared distances of normally distributed points of a plane from their centre, over
 // the variance along each axis: 2 ln 2.
@@ -44,9 +44,20 @@ struct Normals {
   std::array<float, kMostNormals> x, y;
   std::size_t count = 0;
 
-  /// How far most of them scatter along each axis, nearly half of them being anything, and how far
-  /// from these the mean is, which stands for them.
-  float spread_about(float mean_x, float mean_y) const {
+  /// Variance along each axis.
+  float variance() const {
+    const float over_count = 1.0f / static_cast<float>(count);
+    const std::size_t used = count;
+    const float mean_x = std::accumulate(x.begin(), x.begin() + used, 0.0f) * over_count;
+    const float mean_y = std::accumulate(y.begin(), y.begin() + used, 0.0f) * over_count;
+    float sum = 0.0f;
+    for (std::size_t i = 0; i < count; ++i) sum += square_of(x[i] - mean_x, y[i] - mean_y);
+    return 0.5f * sum * over_count;
+  }
+
+  /// Variance along each axis of most of them, nearly half of them being anything, about the mean
+  /// of all, which stands for them.
+  float variance_of_most(float mean_x, float mean_y) const {
     std::array<float, kMostNormals> values = x;
     const std::span<float> some = std::span(values).first(count);
     const float center_x = median(some);
@@ -56,8 +67,7 @@ struct Normals {
       values[i] = square_of(x[i] - center_x, y[i] - center_y);
     }
     const float scatter = median(some) / kSquaredMedian;
-    const float off_along_each = 0.5f * square_of(mean_x - center_x, mean_y - center_y);
-    return std::sqrt(scatter + off_along_each);
+    return scatter + 0.5f * square_of(mean_x - center_x, mean_y - center_y);
   }
 };
 
@@ -92,15 +102,7 @@ void measure_spread(const TextureLevel& finest, TextureLevel& coarse) {
   for (int y = 0; y < coarse.height; ++y) {
     const Extent rows(y, finest.height, coarse.height);
     for (int x = 0; x < coarse.width; ++x) {
-      std::uint8_t* out = &coarse.rgba[4 * (static_cast<std::size_t>(y) * coarse.width + x)];
-      const glm::vec3 mean(component(out[0]), component(out[1]), component(out[2]));
-      const float variance = variance_of_slopes(glm::length(mean));
-      if (variance <= 0.0f) continue;  // its normals are alike
       const Extent columns(x, finest.width, coarse.width);
-      if (std::max(rows.length, columns.length) < kFewestNormals) {
-        out[3] = alpha_of(std::sqrt(variance));
-        continue;
-      }
       normals.count = 0;
       for (int r = 0; r < rows.samples; ++r) {
         for (int c = 0; c < columns.samples; ++c) {
@@ -113,7 +115,13 @@ void measure_spread(const TextureLevel& finest, TextureLevel& coarse) {
           normals.y[normals.count++] = component(finest.rgba[4 * texel + 1]);
         }
       }
-      out[3] = alpha_of(normals.spread_about(mean.x, mean.y));
+      std::uint8_t* out = &coarse.rgba[4 * (static_cast<std::size_t>(y) * coarse.width + x)];
+      float variance = normals.variance();
+      if (std::max(rows.length, columns.length) >= kFewestNormals) {
+        const float most = normals.variance_of_most(component(out[0]), component(out[1]));
+        variance = std::min(variance, most);
+      }
+      out[3] = alpha_of(std::sqrt(variance));
     }
   }
 }

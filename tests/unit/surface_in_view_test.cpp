@@ -81,9 +81,8 @@ TEST(SurfaceInView, BumpsThatAFootprintAveragesOverMakeItsCoatRougher) {
   // Their mean is upright. Along both axes together the slopes' variance is the slope's square
   const Surface far = seen(scene, 0.2f);
   EXPECT_GT(far.normal_ws.z, 0.999f);
-  const float expected = std::sqrt(own * own + kSlope * kSlope);
-  // What may be rounding is left out
-  EXPECT_NEAR(far.reflectance.alpha, expected, 0.1f * expected);
+  const float expected = std::sqrt(own * own + 0.5f * kGgxOverVariance * kSlope * kSlope);
+  EXPECT_NEAR(far.reflectance.alpha, expected, 0.05f * expected);
   // Where all lean alike, nothing is averaged over but 8-bit rounding
   scene.textures = {checked_texture(right, right)};
   build_normal_mips(scene.textures[0]);
@@ -115,7 +114,7 @@ TEST(SurfaceInView, AFewSteepBumpsMakeNoCoatRougher) {
   scene.textures = {texture_of(rough)};
   build_normal_mips(scene.textures[0]);
   // Slopes have a variance of 1 / 12 along each axis
-  const float expected = std::sqrt(own * own + 2.0f / 12.0f);
+  const float expected = std::sqrt(own * own + kGgxOverVariance / 12.0f);
   EXPECT_NEAR(seen(scene, 0.5f).reflectance.alpha, expected, 0.2f * expected);
 }
 
