@@ -31,8 +31,13 @@ struct Texture {
   std::uint32_t revision = 0;        ///< Raise it after an edit: World::update compares this alone.
 };
 
-/// Fills `texture.levels` below the first by box-filtering in linear light.
-void build_mips(Texture& texture);
+/// How texels count in the means of coarser MIP levels: all alike, or by their alpha, in textures
+/// of materials that are cut out or blended, where what is not covered may have any colour.
+enum class MipWeights : std::uint8_t { equal, alpha };
+
+/// Fills `texture.levels` below the first by box-filtering in linear light. Alpha itself is always
+/// the plain mean.
+void build_mips(Texture& texture, MipWeights weights = MipWeights::equal);
 /// The same for a normal map, whose texels are not sRGB-encoded and whose alpha it overwrites: with
 /// 1 at the first level, and below with 1 minus how far most of a texel's normals scatter. Where
 /// normals are averaged, coats are rougher by no more than that: flat tiles stay flat between steep

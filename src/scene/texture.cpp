@@ -57,7 +57,7 @@ Taps box_taps(int i, int fine, int coarse) {
   return taps;
 }
 
-TextureLevel half_size(const TextureLevel& fine, bool srgb) {
+TextureLevel half_size(const TextureLevel& fine, bool srgb, MipWeights weights) {
   TextureLevel coarse;
   coarse.width = std::max(1, fine.width / 2);
   coarse.height = std::max(1, fine.height / 2);
@@ -72,15 +72,20 @@ TextureLevel half_size(const TextureLevel& fine, bool srgb) {
     for (int x = 0; x < coarse.width; ++x) {
       // Average the covered texels in linear light
       glm::vec4 sum(0.0f);
+      glm::vec3 covered(0.0f);
       for (int r = 0; r < rows.count; ++r) {
         for (int c = 0; c < columns[x].count; ++c) {
           const std::size_t texel =
               static_cast<std::size_t>(rows.index[r]) * fine.width + columns[x].index[c];
           const std::uint8_t* p = &fine.rgba[texel * 4];
-          sum += rows.weight[r] * columns[x].weight[c] *
-                 glm::vec4(color[p[0]], color[p[1]], color[p[2]], alpha[p[3]]);
+          const float weight = rows.weight[r] * columns[x].weight[c];
+          const glm::vec4 value(color[p[0]], color[p[1]], color[p[2]], alpha[p[3]]);
+          sum += weight * value;
+          covered += weight * value.a * glm::vec3(value);
         }
       }
+      // Where nothing is covered, there is no such mean, nor does anybody see it
+      if (weights == MipWeights::alpha && sum.a > 0.0f) sum = glm::vec4(covered / sum.a, sum.a);
       std::uint8_t* out = &coarse.rgba[(static_cast<std::size_t>(y) * coarse.width + x) * 4];
       for (int k = 0; k < 3; ++k) out[k] = srgb ? encode_srgb(sum[k]) : byte_from_unit(sum[k]);
       out[3] = byte_from_unit(sum[3]);
@@ -91,11 +96,11 @@ TextureLevel half_size(const TextureLevel& fine, bool srgb) {
 
 }  // namespace
 
-void build_mips(Texture& texture) {
+void build_mips(Texture& texture, MipWeights weights) {
   assert(!texture.levels.empty());
   texture.levels.resize(1);
   while (texture.levels.back().width > 1 || texture.levels.back().height > 1) {
-    texture.levels.push_back(half_size(texture.levels.back(), texture.srgb));
+    texture.levels.push_back(half_size(texture.levels.back(), texture.srgb, weights));
   }
 }
 

@@ -142,6 +142,41 @@ TEST(BuildMips, KeepEverySingleColor) {
   }
 }
 
+TEST(BuildMips, ShowOnlyWhatIsCoveredWhereAlphaSaysSo) {
+  // Leaves in a quarter of the texels, and black where nothing is covered
+  Texture texture;
+  texture.levels.resize(1);
+  texture.levels[0].width = texture.levels[0].height = 4;
+  for (int i = 0; i < 16; ++i) {
+    const bool leaf = i % 2 == 1 && (i / 4) % 2 == 1;
+    const std::uint8_t color = leaf ? 200 : 0, alpha = leaf ? 255 : 0;
+    texture.levels[0].rgba.insert(texture.levels[0].rgba.end(), {color, color, color, alpha});
+  }
+  build_mips(texture, MipWeights::alpha);
+  for (std::size_t level = 1; level < texture.levels.size(); ++level) {
+    EXPECT_EQ(texture.levels[level].rgba[0], 200) << level;
+    EXPECT_EQ(texture.levels[level].rgba[3], 64) << level;
+  }
+  build_mips(texture);
+  EXPECT_EQ(texture.levels[1].rgba[0], 50);
+}
+
+TEST(BuildNormalMips, TellOfBumpsThatRoundingHidesInTheMeanNormal) {
+  // Slopes of 0.05 to either side: the mean normal is shorter than 1 by half of a step
+  Texture texture;
+  texture.levels.resize(1);
+  texture.levels[0].width = texture.levels[0].height = 16;
+  for (int i = 0; i < 16 * 16; ++i) {
+    const std::uint8_t lean = (i + i / 16) % 2 == 0 ? 134 : 121;
+    texture.levels[0].rgba.insert(texture.levels[0].rgba.end(), {lean, 128, 255, 255});
+  }
+  build_normal_mips(texture);
+  for (std::size_t level = 1; level < texture.levels.size(); ++level) {
+    // Along one axis alone: half of the variance along each
+    EXPECT_NEAR(255 - texture.levels[level].rgba[3], 255 * 0.05 / std::sqrt(2.0), 3) << level;
+  }
+}
+
 TEST(BuildNormalMips, HoldHowFarMostNormalsScatter) {
   // Three of four columns face up, the last one leans; sizes need not be powers of two
   Texture texture;

@@ -22,6 +22,7 @@ class MaterialReader {
     material_.name = source_.name;
     material_.lambert = options.lambert;
     material_.double_sided = source_.doubleSided;
+    LAMBENT_CHECK(read_alpha());
     // Files that bring both mean the older model, where it is understood, to be taken
     constexpr const char* kOlderModel = "KHR_materials_pbrSpecularGlossiness";
     if (const auto* older = find_extension(source_.extensions, kOlderModel)) {
@@ -40,7 +41,6 @@ class MaterialReader {
       LAMBENT_CHECK(take(source_.normalTexture, kNormals, material_.normal_texture));
       material_.normal_scale = static_cast<float>(source_.normalTexture.scale);
     }
-    LAMBENT_CHECK(read_alpha());
     material_.unlit = find_extension(source_.extensions, "KHR_materials_unlit") != nullptr;
     // occlusionTexture is ignored on purpose, since global illumination computes occlusion
     return std::move(material_);
@@ -72,6 +72,10 @@ class MaterialReader {
     return take(info_of(extension, key), texels, view);
   }
 
+  Texels base_texels() const {
+    return material_.alpha_mode == AlphaMode::opaque ? kColor : Texels::covering_color;
+  }
+
   void set_base_color(int channel, double value) {
     const auto factor = static_cast<float>(value);
     material_.base_color[channel] = std::clamp(factor, 0.0f, 1.0f);
@@ -86,7 +90,7 @@ class MaterialReader {
     }
     material_.metallic = static_cast<float>(pbr.metallicFactor);
     material_.roughness = static_cast<float>(pbr.roughnessFactor);
-    LAMBENT_CHECK(take(pbr.baseColorTexture, kColor, material_.base_color_texture));
+    LAMBENT_CHECK(take(pbr.baseColorTexture, base_texels(), material_.base_color_texture));
     return take(pbr.metallicRoughnessTexture, kData, material_.metallic_roughness_texture);
   }
 
@@ -141,7 +145,7 @@ class MaterialReader {
         material_.specular_color[k] = std::clamp(factor, 0.0f, 1.0f);
       }
     }
-    LAMBENT_CHECK(take(model, "diffuseTexture", kColor, material_.base_color_texture));
+    LAMBENT_CHECK(take(model, "diffuseTexture", base_texels(), material_.base_color_texture));
     LAMBENT_CHECK(
         take(model, "specularGlossinessTexture", kColor, material_.specular_color_texture));
     return read_glossiness(model);

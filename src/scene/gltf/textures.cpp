@@ -59,7 +59,7 @@ Expected<Texture> TextureLibrary::decode(const Document& document, const Use& us
   texture.name =
       source.name.empty() && source.uri.rfind("data:", 0) != 0 ? source.uri : source.name;
   if (texture.name.empty()) texture.name = place;
-  texture.srgb = use.texels == Texels::color;
+  texture.srgb = use.texels == Texels::color || use.texels == Texels::covering_color;
 
   Bytes file_bytes;
   ByteSpan bytes;
@@ -79,7 +79,8 @@ Expected<Texture> TextureLibrary::decode(const Document& document, const Use& us
   if (use.texels == Texels::normals) {
     build_normal_mips(texture);
   } else {
-    build_mips(texture);
+    const bool covers = use.texels == Texels::covering_color;
+    build_mips(texture, covers ? MipWeights::alpha : MipWeights::equal);
   }
   return texture;
 }

@@ -9,8 +9,9 @@
 
 namespace lambent::gltf {
 
-/// What a texture's texels are: sRGB-encoded colours, numbers, or a normal map's vectors.
-enum class Texels : std::uint8_t { color, data, normals };
+/// What a texture's texels are: sRGB-encoded colours; likewise, where alpha tells how much of each
+/// texel is covered; numbers; or a normal map's vectors.
+enum class Texels : std::uint8_t { color, covering_color, data, normals };
 
 /// Collects the uses of images by materials, as kinds of texels, and then decodes each use once.
 class TextureLibrary {
