@@ -7,7 +7,7 @@
 
 namespace lambent {
 
-/// Pixels of a row, as planes whose guards have no surface.
+/// Pixels of a row, as planes with guards.
 struct AtrousRow {
   ConstPlanes guide;  ///< Starts at the row's first pixel, as the other planes do.
   ConstPlanes lobes;  ///< Read where the pass has lobes.

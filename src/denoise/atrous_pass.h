@@ -12,7 +12,7 @@ LAMBENT_BEGIN
 
 /// Most passes. In the last one, neighbours are 32 pixels apart.
 const int kMaxDenoisePasses = 6;
-/// Width of the border around a picture, whose pixels have no surface: a pass's farthest neighbour.
+/// Width of the border around a picture, which shows it mirrored: a pass's farthest neighbour.
 const int kDenoiseGuard = 1 << (kMaxDenoisePasses - 1);
 
 // Planes of a pixel's light: red, green, blue; then spread and share (see AtrousLight); then the
@@ -46,12 +46,12 @@ const float kLeastLobeSharpness = 1e-6f;
 const float kLeastLobeCosine = 1e-3f;
 
 // Penalty on a neighbour beyond a step, times the squared sine of the step's slope: a step as high
-// as pixels are apart takes nearly all of the weight, a sphere 20 pixels wide hardly any.
+// as pixels are apart takes nearly all of the weight, the middle of a sphere 20 pixels wide hardly
+// any.
 const float kStepSharpness = 16.0f;
 
-// Squared distance between neighbouring pixels that keeps the slope finite where they are at one
-// place [m^2].
-const float kTiniestWay = 1e-20f;
+// Squared distance [m^2] that keeps a step's slope finite where two pixels are at one place.
+const float kLeastSquaredDistance = 1e-20f;
 
 // Squared luminance that always counts as noise: far below any light, so that equal pixels without
 // variance do not divide zero by zero.
@@ -76,6 +76,29 @@ const float kFireflyNoise = 0.5f;
 const uint kWholeLight = 0u;
 const uint kWithoutFireflies = 1u;
 const uint kFirefliesAlone = 2u;
+
+/// The place that a place of a row or a column of `size` pixels shows, up to kDenoiseGuard beyond
+/// its ends: it is mirrored about its last pixels. Without neighbours there, each pass would leave
+/// a line where they begin to be missing.
+LAMBENT_FN int mirrored_place(int place, int size) {
+  if (size < 2) return 0;
+  int period = 2 * (size - 1);
+  int within = (place < 0 ? -place : place) % period;
+  return min(within, period - within);
+}
+
+/// How far a place is beyond the ends of a row or a column of `size` pixels; 0 within it.
+LAMBENT_FN int beyond_ends(int place, int size) {
+  return max(max(-place, place - (size - 1)), 0);
+}
+
+/// Factor on the share (AtrousLight) of a mirrored neighbour this far beyond the border, in a pass
+/// whose neighbours are `apart`. What it shows is among the pixel's other neighbours, too, the more
+/// the farther it is; at last it is the opposite neighbour, and the noise of both together is not
+/// twice that of one, but four times.
+LAMBENT_FN float mirrored_share(int beyond, int apart) {
+  return 1.0f + 2.0f * float(beyond) / float(apart);
+}
 
 /// Parameters of a pass of the filter.
 struct AtrousPass {

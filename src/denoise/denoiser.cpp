@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lambent/denoise.h"
 
+#include <algorithm>
 #include <atomic>
 #include <string>
 
@@ -16,20 +17,72 @@ constexpr int kMaxSide = 16384;  // of a picture [pixels]
 // Rows that a task filters: few enough to keep all cores busy, many enough to stay in the cache.
 constexpr std::size_t kRowsPerTask = 8;
 
-/// A picture of planes, with a border that has no surface.
+template <class Body>
+void for_each_row(int height, Body body) {
+  parallel_chunks(static_cast<std::size_t>(height), kRowsPerTask,
+                  [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t y = begin; y < end; ++y) body(static_cast<int>(y));
+                  });
+}
+
+/// A picture of planes, with a border.
 struct PlanePicture {
-  /// Where the shape is unchanged, the border still holds zeros.
-  void shape(int width, int height, int planes) {
-    if (layout.width == width && layout.height == height && layout.planes == planes) return;
-    layout = PlaneLayout(width, height, planes, kDenoiseGuard);
+  void shape(int picture_width, int height, int planes) {
+    if (width == picture_width && layout.height == height && layout.planes == planes) return;
+    width = picture_width;
+    // Borders to the right are part of the layout's pixels, as its padding is shared by two planes
+    layout = PlaneLayout(width + kDenoiseGuard, height, planes, kDenoiseGuard);
     floats.assign(layout.size, 0.0f);
   }
   Planes row(int y) { return {floats.data() + layout.row(y), layout.stride}; }
   std::ptrdiff_t row_floats() const { return layout.planes * layout.stride; }
+  /// Mirrors the picture in this much of its border.
+  void mirror(int border) {
+    for_each_row(layout.height, [&](int y) {
+      const Planes pixels = row(y);
+      for (int plane = 0; plane < layout.planes; ++plane) {
+        float* const at = pixels.at(plane);
+        for (int x = 1; x <= border; ++x) {
+          const int beyond = width - 1 + x;
+          at[-x] = at[mirrored_place(-x, width)];
+          at[beyond] = at[mirrored_place(beyond, width)];
+        }
+      }
+    });
+    for (int y = 1; y <= border; ++y) {
+      const int beyond = layout.height - 1 + y;
+      copy_row(mirrored_place(-y, layout.height), -y);
+      copy_row(mirrored_place(beyond, layout.height), beyond);
+    }
+  }
+  void copy_row(int from, int to) {
+    const float* const first = row(from).first - layout.lead;
+    std::copy(first, first + row_floats(), row(to).first - layout.lead);
+  }
 
+  int width = 0;
   PlaneLayout layout;
   AlignedFloats floats;
 };
+
+/// Mirrors light in as much of its border as a pass reads.
+void mirror_light(PlanePicture& light, int apart) {
+  light.mirror(apart);
+  const int height = light.layout.height;
+  for (int y = -apart; y < height + apart; ++y) {
+    float* const shares = light.row(y).at(kSharePlane);
+    const int above = beyond_ends(y, height);
+    const float factor = mirrored_share(above, apart);
+    if (above > 0) {
+      for (int x = 0; x < light.width; ++x) shares[x] *= factor;
+    }
+    for (int x = 1; x <= apart; ++x) {
+      const float sideways = factor * mirrored_share(x, apart);
+      shares[-x] *= sideways;
+      shares[light.width - 1 + x] *= sideways;
+    }
+  }
+}
 
 void store_vector(const Planes& to, int plane, int x, const vec3& v) {
   for (int c = 0; c < 3; ++c) to.at(plane + c)[x] = v[c];
@@ -37,14 +90,6 @@ void store_vector(const Planes& to, int plane, int x, const vec3& v) {
 
 vec3 load_vector(const Planes& from, int plane, int x) {
   return {from.at(plane)[x], from.at(plane + 1)[x], from.at(plane + 2)[x]};
-}
-
-template <class Body>
-void for_each_row(int height, Body body) {
-  parallel_chunks(static_cast<std::size_t>(height), kRowsPerTask,
-                  [&](std::size_t begin, std::size_t end) {
-                    for (std::size_t y = begin; y < end; ++y) body(static_cast<int>(y));
-                  });
 }
 
 bool has_lobes(const DenoiseView& view) {
@@ -193,10 +238,11 @@ struct Denoiser::State {
   void run(const AtrousPass& pass, int from) {
     const PlaneLayout& layout = guide.layout;
     const bool lobed = pass.has_lobes != 0;
+    mirror_light(light[from], pass.apart);
     for_each_row(layout.height, [&](int y) {
       filter_row(pass, {guide.row(y), lobed ? lobes.row(y) : Planes{}, light[from].row(y),
                         light[1 - from].row(y), guide.row_floats(), lobed ? lobes.row_floats() : 0,
-                        light[from].row_floats(), layout.width});
+                        light[from].row_floats(), guide.width});
     });
   }
   /// Runs passes, the first of the picture light[0]. Returns the index of the result.
@@ -221,7 +267,11 @@ Expected<void> Denoiser::filter(const DenoiseView& view, const NoisyLight& light
   if (const Expected<void> fine = check(view, light, filtered); !fine) return fine;
   State& s = *state_;
   load_guide(view, light.levels, s.guide);
-  if (has_lobes(view)) load_lobes(view, s.lobes);
+  s.guide.mirror(kDenoiseGuard);
+  if (has_lobes(view)) {
+    load_lobes(view, s.lobes);
+    s.lobes.mirror(kDenoiseGuard);
+  }
   s.light[1].shape(view.width, view.height, kDenoisePlanes);
   const bool has_base = !light.base.empty(), measured = !light.variance.empty(),
              has_levels = !light.levels.empty();

@@ -24,16 +24,14 @@ float larger(float a, float b) {
   return max(a, b);
 }
 
-/// The pixel that is offset by (x, y) from this one; returns false outside the picture.
-bool pixel_at(int x, int y, out uint i) {
-  ivec2 place = pixel + ivec2(x, y);
-  i = uint(place.y) * args.width + uint(place.x);
-  return place.x >= 0 && place.y >= 0 && place.x < int(args.width) && place.y < int(args.height);
+/// The pixel that is offset by (x, y) from this one.
+uint pixel_at(int x, int y) {
+  uint column = uint(mirrored_place(pixel.x + x, int(args.width)));
+  return uint(mirrored_place(pixel.y + y, int(args.height))) * args.width + column;
 }
 
 float fetch_guide(int plane, int x, int y) {
-  uint i;
-  if (!pixel_at(x, y, i)) return 0.0f;
+  uint i = pixel_at(x, y);
   if (plane == kLevelPlane) return args.levels.at[i];
   float depth = args.depths.at[i];
   if (plane == kInverseDepthPlane) return depth > 0.0f ? 1.0f / depth : 0.0f;
@@ -43,17 +41,19 @@ float fetch_guide(int plane, int x, int y) {
 }
 
 float fetch_light(int plane, int x, int y) {
-  uint i;
-  if (!pixel_at(x, y, i)) return 0.0f;
+  uint i = pixel_at(x, y);
   if (plane == kSpreadPlane) return args.in_light.at[i].spread;
-  if (plane == kSharePlane) return args.in_light.at[i].share;
+  if (plane == kSharePlane) {
+    return args.in_light.at[i].share *
+           mirrored_share(beyond_ends(pixel.x + x, int(args.width)), args.by.apart) *
+           mirrored_share(beyond_ends(pixel.y + y, int(args.height)), args.by.apart);
+  }
   return plane < kSpreadPlane ? args.in_light.at[i].light[plane - kLightPlane]
                               : args.in_light.at[i].base[plane - kBasePlane];
 }
 
 float fetch_lobe(int plane, int x, int y) {
-  uint i;
-  if (!pixel_at(x, y, i)) return 0.0f;
+  uint i = pixel_at(x, y);
   if (plane == kLobeSharpnessPlane) return args.lobes.at[i].sharpness;
   if (plane == kInverseHitDistancePlane) return args.lobes.at[i].inverse_distance;
   return plane < kAcrossPlane ? args.lobes.at[i].mirror_ws[plane - kMirrorPlane]
