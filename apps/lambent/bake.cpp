@@ -116,7 +116,7 @@ Expected<void> prepare(const BakeOptions& options, const Job& job, Baking& bakin
   const auto light =
       add_first_light(options.scene.light, view->camera, opened->sky_dome, baking.scene, world);
   if (!light) return tl::unexpected(light.error());
-  tell("light: " + *light);
+  tell("light: " + light->description);
   const auto settings = field_settings(options.field, baking.scene, options.seed, options.bounces);
   if (!settings) return tl::unexpected(settings.error());
   begin_step("updating the field");

@@ -54,11 +54,12 @@ const std::map<std::string, ProbeAspect> kProbeAspects = {{"irradiance", ProbeAs
 
 /// The field that the options describe, before any updates.
 Expected<IrradianceField> open_field(const RenderOptions& options, const World& world,
-                                     const Camera& camera) {
-  const auto settings = picture_field_settings(options, world, camera);
+                                     const Camera& camera, std::span<const Bounds> path_boxes) {
+  const auto settings = picture_field_settings(options, world, camera, path_boxes);
   if (!settings) return tl::unexpected(settings.error());
   if (settings->volumes.size() > world.scene().volumes.size() + options.field.volumes.size()) {
-    tell("probes: finer ones around the camera, as the scene is large (--bounds places them)");
+    const std::string where = path_boxes.empty() ? "around the camera" : "along the camera's path";
+    tell("probes: finer ones " + where + ", as the scene is large (--bounds places them)");
   }
   if (options.field_file.empty()) return make_field(*settings, options.field, world, camera, 1);
   Expected<LoadedField> loaded = load_field(options.field_file, *settings, world);
@@ -135,7 +136,7 @@ Expected<void> FrameRenderer::follow(const Camera& camera, Json& stats) {
     update_field(world_, options_.frame_updates, request, *field_, progress_, stats);
     return {};
   }
-  Expected<IrradianceField> opened = open_field(options_, world_, camera);
+  Expected<IrradianceField> opened = open_field(options_, world_, camera, path_boxes_);
   if (!opened) return tl::unexpected(opened.error());
   field_.emplace(std::move(*opened));
   if (options_.converge) {
@@ -158,7 +159,7 @@ Expected<void> FrameRenderer::follow(const Camera& camera, Json& stats) {
 /// lights that the maps include, which is subtracted. Both trace the same rays, so that their noise
 /// cancels.
 Expected<void> FrameRenderer::split_bounces(const Camera& camera, Json& stats) {
-  const auto settings = picture_field_settings(options_, world_, camera);
+  const auto settings = picture_field_settings(options_, world_, camera, path_boxes_);
   if (!settings) return tl::unexpected(settings.error());
   const glm::vec3 viewer(camera.world_from_view[3]);
   Expected<IrradianceField> all = make_field(*settings, options_.field, world_, camera, 2);

@@ -6,6 +6,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "lambent/error.h"
 #include "lambent/field.h"
@@ -25,6 +27,10 @@ class FrameRenderer {
 
   /// Size of its pictures [pixels].
   const glm::ivec2& size() const { return size_; }
+
+  /// Before the first picture: the near_box() of places along the path of a camera that moves,
+  /// which get finer probes.
+  void surround(std::vector<Bounds> path_boxes) { path_boxes_ = std::move(path_boxes); }
 
   /// Renders the current state of the world to a file. Large pictures are rendered and written some
   /// rows at a time, where the method supports it. For `stops`, see PictureFile. Adds times and
@@ -53,6 +59,7 @@ class FrameRenderer {
   const World& world_;
   glm::ivec2 size_;
   ProgressFn progress_;
+  std::vector<Bounds> path_boxes_;
   std::optional<IrradianceField> field_;         // set with the first picture
   std::optional<IrradianceField> first_bounce_;  // subtracted from field_, for the method rsm+field
   std::optional<Renderer> renderer_;             // refers to both

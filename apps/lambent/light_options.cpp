@@ -151,31 +151,35 @@ Expected<void> add_asked_light(const LightOptions& options, Scene& scene) {
   return set_sky(options, scene);
 }
 
-Expected<std::string> add_first_light(const LightOptions& options, const Camera& camera,
-                                      const std::optional<Scene>& sky_dome, Scene& scene,
-                                      World& world) {
-  if (options.light == "none" && !names_light(options)) return "none but what surfaces emit";
+Expected<AddedLight> add_first_light(const LightOptions& options, const Camera& camera,
+                                     const std::optional<Scene>& sky_dome, Scene& scene,
+                                     World& world) {
+  const auto own = [](std::string text) { return AddedLight{FirstLight::scene, std::move(text)}; };
+  if (options.light == "none" && !names_light(options)) return own("none but what surfaces emit");
   if (sky_dome && options.sky.empty() && options.environment.empty()) {
     const std::uint32_t revision = scene.environment.revision + 1;
     scene.environment = sky_of_dome(*sky_dome, glm::vec3(camera.world_from_view[3]));
     scene.environment.revision = revision;
     if (const auto changes = world.update(); !changes) return tl::unexpected(changes.error());
   }
-  if (names_light(options)) return "as asked";
+  if (names_light(options)) return own("as asked");
   const FirstLight light =
       options.light == "auto" ? choose_first_light(world, camera) : light_of_name(options.light);
-  if (light == FirstLight::scene) return describe(light, scene, sky_dome.has_value());
+  if (light == FirstLight::scene) return own(describe(light, scene, sky_dome.has_value()));
   set_first_light(light, world, camera, scene);
   if (const auto changes = world.update(); !changes) return tl::unexpected(changes.error());
-  if (options.light != "auto") return describe(light, scene, false);
-  const std::string chosen = describe(light, scene, false);
-  if (light == FirstLight::sky) {
-    return chosen + ", as it brings none (--light scene leaves it black)";
-  }
+  AddedLight added = {light, describe(light, scene, false)};
+  if (options.light != "auto") return added;
   const bool emits = std::ranges::any_of(
       scene.materials, [](const Material& m) { return m.emission != glm::vec3(0.0f); });
-  if (emits) return chosen + ", as what surfaces emit lights little of the view (--light scene)";
-  return chosen + ", as the scene brings none (--light, --sun and --sky choose)";
+  if (light == FirstLight::sky) {
+    added.description += ", as it brings none (--light scene leaves it black)";
+  } else if (emits) {
+    added.description += ", as what surfaces emit lights little of the view (--light scene)";
+  } else {
+    added.description += ", as the scene brings none (--light, --sun and --sky choose)";
+  }
+  return added;
 }
 
 }  // namespace lambent::cli

@@ -31,11 +31,18 @@ void add_light_options(CLI::App& command, LightOptions& options);
 /// request it.
 Expected<void> add_asked_light(const LightOptions& options, Scene& scene);
 
+/// Light that was added to a scene: of which kind, FirstLight::scene where it is all the scene's or
+/// the options' own, and a description.
+struct AddedLight {
+  FirstLight kind;
+  std::string description;
+};
+
 /// Adds the light that the options leave to the program, as the camera's view needs it, and updates
 /// the world. `scene` is the world's scene. `sky_dome`, which take_sky_dome took from it, becomes
-/// its sky where the options request no other. Returns a description of the light.
-Expected<std::string> add_first_light(const LightOptions& options, const Camera& camera,
-                                      const std::optional<Scene>& sky_dome, Scene& scene,
-                                      World& world);
+/// its sky where the options request no other.
+Expected<AddedLight> add_first_light(const LightOptions& options, const Camera& camera,
+                                     const std::optional<Scene>& sky_dome, Scene& scene,
+                                     World& world);
 
 }  // namespace lambent::cli

@@ -96,19 +96,27 @@ FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& siz
   return frame;
 }
 
+std::optional<FieldGrid> refinable_grid(const RenderOptions& options, const World& world,
+                                        const Camera& camera) {
+  const auto settings = field_settings(options.field, world.scene(), options.seed, options.bounces);
+  if (!settings || !options.field_file.empty() || places_probes(*settings)) return std::nullopt;
+  const glm::vec3 eye(camera.world_from_view[3]);
+  const Expected<FieldGrid> grid = fit_grid(*settings, open_bounds(world, eye));
+  return grid ? std::optional(*grid) : std::nullopt;
+}
+
 Expected<FieldSettings> picture_field_settings(const RenderOptions& options, const World& world,
-                                               const Camera& camera) {
-  const Scene& scene = world.scene();
-  auto settings = field_settings(options.field, scene, options.seed, options.bounces);
+                                               const Camera& camera,
+                                               std::span<const Bounds> path_boxes) {
+  auto settings = field_settings(options.field, world.scene(), options.seed, options.bounces);
   if (!settings) return settings;
   if (options.field.visibility.empty() && chosen_quality(options) == Quality::high) {
     settings->visibility = Visibility::hybrid;
   }
-  if (!options.field_file.empty() || places_probes(*settings)) return settings;
-  const glm::vec3 eye(camera.world_from_view[3]);
-  const Expected<FieldGrid> grid = fit_grid(*settings, open_bounds(world, eye));
+  const std::optional<FieldGrid> grid = refinable_grid(options, world, camera);
   if (!grid) return settings;
-  for (ProbeVolume& volume : near_volumes(world, camera, *grid)) {
+  for (ProbeVolume& volume :
+       path_boxes.empty() ? near_volumes(world, camera, *grid) : near_volumes(path_boxes, *grid)) {
     settings->volumes.push_back(std::move(volume));
   }
   return settings;

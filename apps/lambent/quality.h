@@ -3,6 +3,8 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "lambent/error.h"
@@ -28,11 +30,17 @@ Quality quality_from_name(const std::string& name);
 /// them.
 FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& size);
 
+/// The grid of a picture's field where it may have finer volumes around the camera: none where the
+/// options, or the scene's author, say where probes stand.
+std::optional<FieldGrid> refinable_grid(const RenderOptions& options, const World& world,
+                                        const Camera& camera);
+
 /// Settings of the field that lights a picture: those of the quality, except where other options
-/// override them. Where neither they nor the scene say where probes stand, and the scene is
-/// larger than what surrounds the camera, there are finer ones around it (near_volumes).
+/// override them. A refinable grid gets finer volumes: in `path_boxes`, the near_box() of places
+/// along the path of a camera that moves, or, where there are none, around this camera.
 Expected<FieldSettings> picture_field_settings(const RenderOptions& options, const World& world,
-                                               const Camera& camera);
+                                               const Camera& camera,
+                                               std::span<const Bounds> path_boxes);
 
 /// Whether the field is updated until its light is calm, not a fixed number of times.
 bool wants_calm_field(const RenderOptions& options);

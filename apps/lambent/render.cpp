@@ -99,7 +99,7 @@ Expected<void> render(const RenderOptions& options) {
       add_first_light(options.scene.light, view->camera, opened->sky_dome, scene, world);
   if (!light) return tl::unexpected(light.error());
   tell("camera: " + describe(*view));
-  tell("light: " + *light);
+  tell("light: " + light->description);
 
   Json stats;
   stats["method"] = options.method;
@@ -114,7 +114,8 @@ Expected<void> render(const RenderOptions& options) {
   FrameRenderer renderer(options, world, *size);
   const Expected<void> done =
       options.frames > 0
-          ? render_sequence(options, scene, *animation, *view, world, renderer, stats)
+          ? render_sequence(options, {scene, world, *animation, light->kind == FirstLight::sky},
+                            *view, renderer, stats)
           : render_picture(options, world, view->camera, renderer, stats);
   if (const auto silent = check_validation(device->get()); done && !silent) return silent;
   // For an interrupted sequence, write the statistics of the finished frames

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lambent/console.h"
@@ -13,33 +14,28 @@
 #include "lambent/words.h"
 
 namespace lambent::cli {
-
-Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int animation, View view,
-                               World& world, FrameRenderer& renderer,
+Expected<void> render_sequence(const RenderOptions& options, const PosedScene& posed,
+                               const View& view, FrameRenderer& renderer,
                                nlohmann::ordered_json& stats) {
   const InterruptGuard guard;
+  Expected<SequenceSurvey> survey = survey_sequence(options, posed, view);
+  if (!survey) return tl::unexpected(survey.error());
+  renderer.surround(std::move(survey->path_boxes));
+  std::optional<float> stops = survey->stops;
+  if (stops) tell("exposure: that of most frames, as the first one's does not suit them");
   stats["fps"] = options.fps;
   nlohmann::ordered_json& list = stats["frames"] = nlohmann::ordered_json::array();
-  std::optional<float> stops;
   std::vector<std::string> written;
   for (int i = 0; i < options.frames; ++i) {
     if (guard.interrupted()) {
       return fail("", "", "interrupted after " + std::to_string(i) + " frames",
                   Error::Kind::failed);
     }
-    const double time =
-        static_cast<double>(options.time_s.value_or(0.0f)) + i / static_cast<double>(options.fps);
-    animate(scene, animation, static_cast<float>(time));
-    const Expected<WorldChanges> changes = world.update();
+    const double time = time_of_frame(options, i);
+    const Expected<WorldChanges> changes = pose_at(posed, time);
     if (!changes) return tl::unexpected(changes.error());
-
-    // A camera of the scene follows the animation; any other does not move, nor does any where
-    // nothing is animated
-    if (view.from == View::From::scene && !scene.animations.empty()) {
-      Expected<Camera> moved = camera_of_scene(options.scene, scene);
-      if (!moved) return tl::unexpected(moved.error());
-      view.camera = std::move(*moved);
-    }
+    const Expected<Camera> camera = camera_of_pose(options, view, posed.scene);
+    if (!camera) return tl::unexpected(camera.error());
     nlohmann::ordered_json& frame = list.emplace_back();
     frame["frame"] = i;
     frame["time_s"] = time;
@@ -48,7 +44,7 @@ Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int a
     frame["changed_lights"] = changes->lights.size();
     written.push_back(frame_path(options.output, i));
     if (const auto made = make_folders(written.back()); !made) return made;
-    const auto done = renderer.paint_to_file(view.camera, written.back(), stops, frame);
+    const auto done = renderer.paint_to_file(*camera, written.back(), stops, frame);
     if (!done) return done;
   }
   tell_written(written, pixels_text(renderer.size().x, renderer.size().y),

@@ -220,7 +220,7 @@ Expected<void> serve_own(const ServeOptions& options, const stream::PictureSetti
       add_first_light(options.scene.light, view->camera, opened->sky_dome, scene, world);
   if (!light) return tl::unexpected(light.error());
   tell("camera: " + describe(*view));
-  tell("light: " + *light);
+  tell("light: " + light->description);
   const auto wanted = field_settings(options.field, scene, options.seed, -1);
   if (!wanted) return tl::unexpected(wanted.error());
   begin_step("updating the field");

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -60,6 +61,10 @@ FirstLight choose_first_light(const World& world, const Camera& camera);
 /// FirstLight::scene changes nothing. `scene` is the world's scene; call World::update afterwards.
 void set_first_light(FirstLight light, const World& world, const Camera& camera, Scene& scene);
 
+/// Sets the sky of FirstLight::sky anew, which is in proportion to the scene's suns as they are
+/// now; nothing changes where it is right already. Call World::update afterwards.
+void adjust_first_sky(Scene& scene);
+
 /// Removes the sky that a scene brings as a mesh: a dome or a box of emissive or unlit triangles
 /// that is far around most of the rest. As a surface, it would take nearly all samples of emitters
 /// from lamps indoors, stop the light of suns, and stretch the field's grid. Returns the dome as a
@@ -74,14 +79,21 @@ std::optional<Scene> take_sky_dome(Scene& scene);
 /// sky beside them. Traces a ray for each texel, up to 8.4 million. `eye_ws` [m].
 Environment sky_of_dome(const Scene& dome, const glm::vec3& eye_ws);
 
-/// Volumes of about 4,096 probes each for fields whose grid has few cells around a camera, since
-/// the scene is larger than the room or the yard in which it stands: one around the surfaces that
-/// surround it, or around the nearer part of what it sees from the open, a house in its grounds;
-/// and larger ones around that, each with a spacing of about 2.5 times that of the one before, up
-/// to the grid's. Finest first; none where the grid is fine enough, where they would be less than
-/// twice as fine, and where the camera sees far into the open. `grid`: that of the field, as
-/// fit_grid() makes it. Traces some 1,000 rays.
+/// The box that surrounds a camera, where a grid is too coarse for it, since the scene is larger
+/// than the room or the yard in which the camera stands: around the surfaces about it, or around
+/// the nearer part of what it sees from the open, a house in its grounds. None where the grid has
+/// cells enough, where the camera sees far into the open and where it is orthographic. `grid`: that
+/// of the field, as fit_grid() makes it. Traces some 1,000 rays.
+std::optional<Bounds> near_box(const World& world, const Camera& camera, const FieldGrid& grid);
+
+/// Volumes of about 4,096 probes each for fields whose grid is too coarse for a camera: one in its
+/// near_box(), and larger ones around that, each with a spacing of about 2.5 times that of the one
+/// before, up to the grid's. Finest first; none where they would be less than twice as fine.
 std::vector<ProbeVolume> near_volumes(const World& world, const Camera& camera,
                                       const FieldGrid& grid);
+
+/// near_volumes() for a camera that travels, from its near boxes at places along its path. The
+/// finest volume holds all of them, and has up to four times as many probes.
+std::vector<ProbeVolume> near_volumes(std::span<const Bounds> boxes, const FieldGrid& grid);
 
 }  // namespace lambent

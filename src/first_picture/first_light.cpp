@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <utility>
 
 #include "first_picture/lamps.h"
 #include "first_picture/seen.h"
@@ -10,6 +11,7 @@
 #include "first_picture/subject.h"
 #include "first_picture/survey.h"
 #include "lambent/first_picture.h"
+#include "raytracing/trace_rays.h"
 #include "shared/rays.h"
 
 namespace lambent {
@@ -230,14 +232,21 @@ FirstLight choose_first_light(const World& world, const Camera& camera) {
   return is_outdoors(world) ? FirstLight::sun : FirstLight::studio;
 }
 
+void adjust_first_sky(Scene& scene) {
+  Environment sky;
+  sky.radiance = kFirstSky * sun_ratio(scene);
+  sky.revision = scene.environment.revision;
+  if (scene.environment.map.width == 0 && scene.environment.radiance == sky.radiance) return;
+  ++sky.revision;
+  scene.environment = std::move(sky);
+}
+
 void set_first_light(FirstLight light, const World& world, const Camera& camera, Scene& scene) {
   if (light == FirstLight::scene) return;
+  if (light == FirstLight::sky) return adjust_first_sky(scene);
   const SeenView view = sample_view(world, camera);
   const std::uint32_t revision = scene.environment.revision + 1;
-  if (light == FirstLight::sky) {
-    scene.environment = {};
-    scene.environment.radiance = kFirstSky * sun_ratio(scene);
-  } else if (light == FirstLight::studio) {
+  if (light == FirstLight::studio) {
     glm::vec3 front(camera.world_from_view[2]);  // the camera looks along its -Z
     front.y = 0.0f;
     front = glm::length(front) > 0.0f ? glm::normalize(front) : glm::vec3(0.0f, 0.0f, 1.0f);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "lambent/field.h"
 #include "lambent/first_picture.h"
 #include "lambent/world.h"
+#include "raytracing/trace_rays.h"
 
 namespace lambent {
 namespace {
@@ -40,6 +42,9 @@ constexpr float kMinCells = 4.0f;
 // Finer probes are worth their rays where their spacing is smaller by at least this factor:
 // Sponza's nave, with 3.4, has 7 % less error with them.
 constexpr float kMinRatio = 2.0f;
+// A volume along a camera's path has up to this many times the probes of one around a place: a lift
+// of 2 m that climbs 12 m takes all of them.
+constexpr float kMaxPathFactor = 4.0f;
 // Spacings of volumes that enclose each other differ by about this factor, by more where the grid's
 // own bounds cut a volume off: what stands beside the box, as the rooms of a house behind the
 // camera's or around its yard, is far smaller than a cell of the whole grid. With 4, rooms around a
@@ -91,8 +96,42 @@ Bounds box_around(const std::vector<glm::vec3>& places, float left_out) {
   return box;
 }
 
-/// The box around a camera that needs finer probes than those of a grid; none where it has enough.
-std::optional<Bounds> near_box(const World& world, const Camera& camera, const glm::vec3& spacing) {
+float longest(const glm::vec3& size) {
+  return std::max({size.x, size.y, size.z});
+}
+
+/// A volume in a box, of about 4,096 probes times a factor; none where the box has no size.
+std::optional<ProbeVolume> volume_in(const Bounds& box, const char* name, float factor = 1.0f) {
+  Expected<FieldGrid> grid = fit_grid({}, box);
+  if (grid && factor > 1.0f) {
+    FieldSettings settings;
+    settings.probe_spacing = longest(grid->spacing) / std::cbrt(factor);
+    grid = fit_grid(settings, box);
+  }
+  if (!grid) return std::nullopt;
+  ProbeVolume volume;
+  volume.name = name;
+  volume.probe_count = grid->count;
+  volume.size = grid->spacing * glm::vec3(grid->count - 1);
+  volume.centre = grid->origin + 0.5f * volume.size;
+  return volume;
+}
+
+/// A volume in a box that encloses others: as fine as in the smallest of these, as far as it can.
+std::optional<ProbeVolume> finest_volume(const Bounds& whole, std::span<const Bounds> parts) {
+  const auto content = [](const Bounds& box) {
+    const glm::vec3 size = box.max - box.min;
+    return size.x * size.y * size.z;
+  };
+  float least = content(whole);
+  for (const Bounds& part : parts) least = std::min(least, content(part));
+  const float factor = least > 0.0f ? content(whole) / least : 1.0f;
+  return volume_in(whole, "around the camera", std::min(factor, kMaxPathFactor));
+}
+
+}  // namespace
+
+std::optional<Bounds> near_box(const World& world, const Camera& camera, const FieldGrid& grid) {
   if (camera.orthographic) return std::nullopt;
   const glm::vec3 eye(camera.world_from_view[3]);
   const std::vector<glm::vec3> seen = places_seen(world, camera);
@@ -107,36 +146,18 @@ std::optional<Bounds> near_box(const World& world, const Camera& camera, const g
   Bounds box = box_around(places, in_the_open ? kNearbyOutlierShare : kOutlierShare);
   box.add(eye);
   const glm::vec3 size = box.max - box.min;
-  const bool is_coarse = in_the_open ? glm::all(glm::lessThan(size, kNearbyCells * spacing))
-                                     : glm::any(glm::lessThan(size, kMinCells * spacing));
+  const bool is_coarse = in_the_open ? glm::all(glm::lessThan(size, kNearbyCells * grid.spacing))
+                                     : glm::any(glm::lessThan(size, kMinCells * grid.spacing));
   if (!is_coarse) return std::nullopt;
   if (in_the_open) box = {box.min - kNearbyMargin * size, box.max + kNearbyMargin * size};
   return box;
 }
 
-/// A volume of about 4,096 probes in a box; none where it has no size.
-std::optional<ProbeVolume> volume_in(const Bounds& box, const char* name) {
-  const Expected<FieldGrid> grid = fit_grid({}, box);
-  if (!grid) return std::nullopt;
-  ProbeVolume volume;
-  volume.name = name;
-  volume.probe_count = grid->count;
-  volume.size = grid->spacing * glm::vec3(grid->count - 1);
-  volume.centre = grid->origin + 0.5f * volume.size;
-  return volume;
-}
-
-float longest(const glm::vec3& size) {
-  return std::max({size.x, size.y, size.z});
-}
-
-}  // namespace
-
-std::vector<ProbeVolume> near_volumes(const World& world, const Camera& camera,
-                                      const FieldGrid& grid) {
-  const std::optional<Bounds> box = near_box(world, camera, grid.spacing);
-  if (!box) return {};
-  const std::optional<ProbeVolume> finest = volume_in(*box, "around the camera");
+std::vector<ProbeVolume> near_volumes(std::span<const Bounds> boxes, const FieldGrid& grid) {
+  Bounds box;
+  for (const Bounds& part : boxes) box.add(part);
+  if (boxes.empty()) return {};
+  const std::optional<ProbeVolume> finest = finest_volume(box, boxes);
   if (!finest) return {};
   const glm::vec3 cells(finest->probe_count - 1);
   const float ratio = longest(grid.spacing) / longest(finest->size / cells);
@@ -148,13 +169,19 @@ std::vector<ProbeVolume> near_volumes(const World& world, const Camera& camera,
   const Bounds whole{grid.origin, grid.origin + grid.spacing * glm::vec3(grid.count - 1)};
   for (float step = 1.0f; step < steps; ++step) {
     const glm::vec3 half = 0.5f * finest->size * std::pow(ratio, step / steps);
-    const Bounds around{glm::max(finest->centre - half, glm::min(box->min, whole.min)),
-                        glm::min(finest->centre + half, glm::max(box->max, whole.max))};
+    const Bounds around{glm::max(finest->centre - half, glm::min(box.min, whole.min)),
+                        glm::min(finest->centre + half, glm::max(box.max, whole.max))};
     if (auto volume = volume_in(around, "beside what surrounds the camera")) {
       volumes.push_back(std::move(*volume));
     }
   }
   return volumes;
+}
+
+std::vector<ProbeVolume> near_volumes(const World& world, const Camera& camera,
+                                      const FieldGrid& grid) {
+  const std::optional<Bounds> box = near_box(world, camera, grid);
+  return box ? near_volumes(std::span(&*box, 1), grid) : std::vector<ProbeVolume>();
 }
 
 }  // namespace lambent

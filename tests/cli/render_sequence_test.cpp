@@ -25,6 +25,7 @@ namespace {
 using test::ProgramResult;
 using test::run_program;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::string kQuick = " --size 24x16 --samples 1 --probes 4x4x4 --rays 32 --updates 3 ";
 
@@ -116,6 +117,31 @@ TEST_F(RenderSequence, OfAFileIsThatOfTheBuiltInScene) {
   ASSERT_EQ(run_program("render atrium" + direct + directory.file("b.exr")).status, 0);
   const double ours = mean_of(directory.file("a.exr")), theirs = mean_of(directory.file("b.exr"));
   EXPECT_NEAR(ours / theirs, 1.0, 0.01);
+}
+
+// A lift that climbs 8 m in a shaft on wide grounds; after the first frame, a sun rises that is
+// 2,000 times as strong as before.
+TEST_F(RenderSequence, OfALiftAtDawnIsExposedAndLitForAllOfItsWay) {
+  const std::string scene = LAMBENT_TEST_DATA "/lift_at_dawn.gltf";
+  const std::string quick =
+      " --size 24x16 --samples 1 --rays 32 --updates 2 --frames 5 --fps 4 -o ";
+  ProgramResult result = run_program("render " + scene + quick + directory.file("out.png"));
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("finer ones along the camera's path"));
+  EXPECT_THAT(result.errors, HasSubstr("exposure: that of most frames"));
+  // Neither white nor black
+  const double last = mean_of(directory.file("out.0004.png"));
+  EXPECT_GT(last, 0.05);
+  EXPECT_LT(last, 0.9);
+
+  // Files of radiance need no exposure, and the sky that was added follows the sun
+  result = run_program("render " + scene + quick + directory.file("out.exr"));
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.errors, Not(HasSubstr("exposure")));
+  const double dark = mean_of(directory.file("out.0000.exr")),
+               bright = mean_of(directory.file("out.0001.exr"));
+  EXPECT_GT(bright, 500.0 * dark);
+  EXPECT_LT(bright, 4000.0 * dark);
 }
 
 TEST_F(RenderSequence, StopsAfterAFrameWhenInterrupted) {

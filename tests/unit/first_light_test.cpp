@@ -70,6 +70,14 @@ TEST(FirstLight, IsASkyInProportionWhereSunsShineOutOfTheVoid) {
   EXPECT_NEAR(scene.environment.radiance.b, 0.2f * 2.6f, 1e-4f);
   EXPECT_EQ(choose_first_light(World(scene), camera), FirstLight::scene) << "it has a sky now";
 
+  // It follows the suns, and nothing changes where it is right
+  scene.lights[0].intensity *= 2.0f;
+  adjust_first_sky(scene);
+  EXPECT_NEAR(scene.environment.radiance.b, 0.4f * 2.6f, 1e-4f);
+  const std::uint32_t revision = scene.environment.revision;
+  adjust_first_sky(scene);
+  EXPECT_EQ(scene.environment.revision, revision);
+
   // So it is where the camera looks down on the ground and sees nothing past it
   scene.environment = {};
   const Camera down = look_at({0, 1.5f, 0.5f}, {0, 0, 0.4f}, 0.5f);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <span>
+#include <vector>
 
 #include "lambent/field.h"
 #include "lambent/first_picture.h"
@@ -36,6 +38,11 @@ FieldGrid grid_of(float spacing) {
 float spacing_of(const ProbeVolume& volume) {
   const glm::vec3 spacing = volume.size / glm::vec3(volume.probe_count - 1);
   return std::max({spacing.x, spacing.y, spacing.z});
+}
+
+float probes_of(const ProbeVolume& volume) {
+  const glm::ivec3 count = volume.probe_count;
+  return static_cast<float>(count.x * count.y * count.z);
 }
 
 const Camera kInside = look_at({0, 1.5f, 2}, {0, 1, -3}, 1.0f);
@@ -117,6 +124,26 @@ TEST(NearVolumes, AreNotThereWhereTheyWouldHardlyBeFiner) {
   const Camera camera = look_at({0, 0.6f, 2}, {0, 0.6f, -3}, 1.0f);
   EXPECT_FALSE(near_volumes(world, camera, grid_of(0.64f)).empty());
   EXPECT_TRUE(near_volumes(world, camera, grid_of(0.32f)).empty());
+}
+
+TEST(NearVolumes, HoldTheWholePathOfACameraThatTravels) {
+  // A lift of 2 m that climbs 12 m
+  const std::vector<Bounds> boxes = {{glm::vec3(0.0f), glm::vec3(2.0f)},
+                                     {{0.0f, 6.0f, 0.0f}, {2.0f, 8.0f, 2.0f}},
+                                     {{0.0f, 10.0f, 0.0f}, {2.0f, 12.0f, 2.0f}}};
+  const auto volumes = near_volumes(boxes, grid_of(5.0f));
+  const auto first = near_volumes(std::span(boxes).first(1), grid_of(5.0f));
+  ASSERT_FALSE(volumes.empty());
+  // A grid is at most a cell off
+  const glm::vec3 half(0.5f * volumes[0].size + spacing_of(volumes[0]));
+  const glm::vec3 low = volumes[0].centre - half, high = volumes[0].centre + half;
+  for (const Bounds& box : boxes) {
+    EXPECT_TRUE(glm::all(glm::lessThanEqual(low, box.min)));
+    EXPECT_TRUE(glm::all(glm::greaterThanEqual(high, box.max)));
+  }
+  // Four times the probes for six times the space
+  EXPECT_NEAR(probes_of(volumes[0]), 4.0f * probes_of(first[0]), 0.4f * probes_of(volumes[0]));
+  EXPECT_TRUE(near_volumes(std::span<const Bounds>(), grid_of(5.0f)).empty());
 }
 
 TEST(NearVolumes, AreNotThereInTheOpen) {
