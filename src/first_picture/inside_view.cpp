@@ -10,9 +10,8 @@
 
 #include "first_picture/views.h"
 #include "raytracing/direct_light.h"
+#include "raytracing/find_solid_sides.h"
 #include "raytracing/places/places.h"
-#include "raytracing/solid_sides/find_solid_sides.h"
-#include "raytracing/trace_rays.h"
 #include "raytracing/world_access.h"
 #include "shared/constants.h"
 #include "shared/random.h"
@@ -62,9 +61,7 @@ constexpr float kTilt = 0.06f;
 // Distances as shares of the diagonal: the least from an eye to any surface; the one below which a
 // surface counts as near; and the one beyond which depth counts no more.
 constexpr float kClearance = 0.015f, kNear = 0.07f, kDeep = 0.5f;
-// Number of lights, chosen at random, one of which lights what is lit, and the seed of the choice:
-// a stage under six spots would otherwise count as dark.
-constexpr int kLightsTried = 4;
+// Seed of the choice of lights.
 constexpr std::uint32_t kLitViewSeed = 4;
 // A larger share of sky than this counts against a view.
 constexpr float kMaxSky = 0.1f;
@@ -166,18 +163,13 @@ std::vector<std::uint8_t> find_lit(const World& world, std::span<const Ray> rays
     if (hits[i].missed()) continue;
     RandomStream random = make_random_stream(static_cast<std::uint32_t>(i), 0, kLitViewSeed);
     const float distance = hits[i].distance * (1.0f - kShadowRayShortening);
-    const glm::vec3 from = rays[i].origin + distance * rays[i].direction;
-    for (int tried = 0; tried < kLightsTried; ++tried) {
-      const auto ray = ray_to_any_light(world, from, random);
-      if (!ray) continue;
-      to_lights.push_back(*ray);
-      hit_of_ray.push_back(i);
-    }
+    const auto ray = ray_to_any_light(world, rays[i].origin + distance * rays[i].direction, random);
+    if (!ray) continue;
+    to_lights.push_back(*ray);
+    hit_of_ray.push_back(i);
   }
   const std::vector<std::uint8_t> shadowed = trace_occlusion(world, to_lights);
-  for (std::size_t r = 0; r < to_lights.size(); ++r) {
-    if (shadowed[r] == 0) lit[hit_of_ray[r]] = 1;
-  }
+  for (std::size_t r = 0; r < to_lights.size(); ++r) lit[hit_of_ray[r]] = shadowed[r] == 0 ? 1 : 0;
   return lit;
 }
 
