@@ -10,8 +10,8 @@
 
 #include "first_picture/views.h"
 #include "raytracing/direct_light.h"
-#include "raytracing/find_solid_sides.h"
 #include "raytracing/places/places.h"
+#include "raytracing/solid_sides/find_solid_sides.h"
 #include "raytracing/world_access.h"
 #include "shared/constants.h"
 #include "shared/random.h"
