@@ -16,20 +16,22 @@
 namespace lambent {
 namespace {
 
-// Rays of a point. Pools of 25 points have 400 of them, which find what is a hundredth of the
-// hemisphere.
-constexpr uint kPilotRays = 16;
-// Points of a task on the processor, and of one whose rays a device traces, which waits for each
-// task: 65,536 rays, in about 15 MB.
-constexpr std::size_t kPointsPerTask = 128, kPointsPerDeviceTask = 4096;
+// Fewest and most rays of a point: one for each pixel of the picture that it stands for. Pools of
+// 49 points have 784 and more of them, which find what is a thousandth of the hemisphere. Where
+// some pools find it and others do not, the filter leaves squares.
+constexpr uint kMinPilotRays = 16, kMaxPilotRays = 64;
+// Points of a task on the processor, and rays of one whose rays a device traces, which waits for
+// each task: in about 15 MB.
+constexpr std::size_t kPointsPerTask = 128, kRaysPerDeviceTask = 65536;
 
 // The pilot's rays with what they meet, and the places drawn from that, have random numbers of
 // their own by these salts.
 constexpr uint kPilotSalt = 0xC2B2AE35u;
 constexpr uint kPlacesSalt = 0x9E3779B1u;
 
-// Points pool the rays of those up to this far away in the pilot's picture.
-constexpr int kPoolReach = 2;
+// Points pool the rays of those up to this far away along both axes of the pilot's picture, and of
+// as many others that are this far apart.
+constexpr int kPoolReach = 2, kFarApart = 4;
 // Pooled points face about the same way, within 26 degrees: a pool stands for one hemisphere.
 constexpr float kPoolCosine = 0.9f;
 // Rays this many times as bright as the mean of the pool are bright. 1.5 leaves a little more
@@ -53,21 +55,45 @@ float straight_distance(const ShadedHit& hit) {
   return sky ? kSkyDistance : hit.point.viewer_distance;
 }
 
-/// Adds the rays of a point of a pilot of this width [pixels].
-void add_rays(const PilotView& view, int pilot_width, std::size_t point, std::uint32_t seed,
-              GatheringRays& rays) {
+/// The number of rays of each of a pilot's points.
+uint pilot_rays(const GuideSize& size) {
+  const auto of = [](int width, int height) { return static_cast<float>(width) * height; };
+  const float pixels = of(size.picture_width, size.picture_height) / of(size.width, size.height);
+  return std::clamp(static_cast<uint>(pixels), kMinPilotRays, kMaxPilotRays);
+}
+
+/// Adds this many rays of a point of a pilot of this width [pixels].
+void add_rays(const PilotView& view, int pilot_width, std::size_t point, uint count,
+              std::uint32_t seed, GatheringRays& rays) {
   const Surface& surface = view.surfaces[point];
   const Frame frame = make_frame(surface.normal_ws);
   const vec3 origin_ws = offset_ray_origin(surface.position_ws, surface.geometric_normal_ws);
   const auto width = static_cast<std::size_t>(pilot_width);
   const auto x = static_cast<uint>(point % width), y = static_cast<uint>(point / width);
-  for (uint ray = 0; ray < kPilotRays; ++ray) {
-    const vec2 drawn = pixel_point(x, y, ray, kPilotRays, kPilotSalt, seed);
-    rays.add(origin_ws, gather_direction(frame, drawn), point * kPilotRays + ray);
+  for (uint ray = 0; ray < count; ++ray) {
+    const vec2 drawn = pixel_point(x, y, ray, count, kPilotSalt, seed);
+    rays.add(origin_ws, gather_direction(frame, drawn), point * count + ray);
   }
 }
 
-/// Rays of a point and those around it.
+// Pooled points along each axis, near ones or farther ones.
+constexpr int kPoolSide = 2 * kPoolReach + 1;
+
+/// From a point to those that it pools, in the pilot's picture: those around it, itself among them,
+/// and farther ones.
+constexpr auto kPoolOffsets = [] {
+  std::array<glm::ivec2, 2 * kPoolSide * kPoolSide - 1> offsets{};
+  std::size_t count = 0;
+  for (const int apart : {1, kFarApart}) {
+    for (int place = 0; place < kPoolSide * kPoolSide; ++place) {
+      const int x = place % kPoolSide - kPoolReach, y = place / kPoolSide - kPoolReach;
+      if (apart == 1 || x != 0 || y != 0) offsets[count++] = {apart * x, apart * y};
+    }
+  }
+  return offsets;
+}();
+
+/// Rays of a point and those that it pools.
 struct Pool {
   std::vector<PilotHit> hits;
   std::vector<std::size_t> bright;  // of these
@@ -80,14 +106,14 @@ Pool pool_around(std::span<const PilotHit> hits, const GatherGuide& guide, int x
   const vec3 normal_ws = guide.points[static_cast<std::size_t>(y) * width + x].normal_ws;
   Pool pool;
   double light = 0.0;
-  for (int b = std::max(y - kPoolReach, 0); b <= std::min(y + kPoolReach, height - 1); ++b) {
-    for (int a = std::max(x - kPoolReach, 0); a <= std::min(x + kPoolReach, width - 1); ++a) {
-      const std::size_t i = static_cast<std::size_t>(b) * width + a;
-      if (dot(guide.points[i].normal_ws, normal_ws) < kPoolCosine) continue;
-      for (const PilotHit& hit : hits.subspan(i * per_point, per_point)) {
-        light += hit.luminance;
-        pool.hits.push_back(hit);
-      }
+  for (const glm::ivec2& offset : kPoolOffsets) {
+    const int a = x + offset.x, b = y + offset.y;
+    if (a < 0 || b < 0 || a >= width || b >= height) continue;
+    const std::size_t i = static_cast<std::size_t>(b) * width + a;
+    if (dot(guide.points[i].normal_ws, normal_ws) < kPoolCosine) continue;
+    for (const PilotHit& hit : hits.subspan(i * per_point, per_point)) {
+      light += hit.luminance;
+      pool.hits.push_back(hit);
     }
   }
   const double least = kBrightOverMean * light / static_cast<double>(pool.hits.size());
@@ -180,17 +206,16 @@ std::uint64_t make_guide(const World& world, const IrradianceField& field, const
                          std::uint32_t seed, GatherGuide& guide) {
   guide.points.assign(view.seen.size(), GuidePoint{vec3(0.0f), 1.0f, 0.0f});
   std::vector<vec3> positions_ws(view.seen.size());
-  std::vector<PilotHit> hits(view.seen.size() * kPilotRays, PilotHit{vec3(0.0f), 0.0f});
+  const uint count = pilot_rays(guide.size);
+  std::vector<PilotHit> hits(view.seen.size() * count, PilotHit{vec3(0.0f), 0.0f});
   const std::vector<ProbeGrid> grids = still_grids(field.grids());
   // Lookups light all hits: that nooks are lit in detail matters little for where bright places are
-  const HitLighting by =
-      lit_by_field(world, field, grids,
-                   gathering_shading(static_cast<int>(kPilotRays), field.settings().max_albedo,
-                                     kPilotSalt, seed),
-                   0);
+  const HitLighting by = lit_by_field(
+      world, field, grids,
+      gathering_shading(static_cast<int>(count), field.settings().max_albedo, kPilotSalt, seed), 0);
   std::atomic<std::uint64_t> traced = 0;
   const std::size_t at_a_time =
-      device_world_of(world) != nullptr ? kPointsPerDeviceTask : kPointsPerTask;
+      device_world_of(world) != nullptr ? kRaysPerDeviceTask / count : kPointsPerTask;
   parallel_chunks(view.seen.size(), at_a_time, [&](std::size_t begin, std::size_t end) {
     GatheringRays rays;
     ShadeHitsScratch scratch;
@@ -198,7 +223,7 @@ std::uint64_t make_guide(const World& world, const IrradianceField& field, const
       if (view.seen[i] == 0) continue;
       positions_ws[i] = view.surfaces[i].position_ws;
       guide.points[i].normal_ws = view.surfaces[i].normal_ws;
-      add_rays(view, guide.size.width, i, seed, rays);
+      add_rays(view, guide.size.width, i, count, seed, rays);
     }
     traced += rays.light(by, scratch);
     for (std::size_t i = 0; i < rays.rays.size(); ++i) {

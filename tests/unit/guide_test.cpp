@@ -54,11 +54,35 @@ TEST(Guide, SendsNoRaysWhereLightIsTheSameAllAround) {
   for (const GuidePoint& point : guide.points) EXPECT_EQ(point.share, 0.0f);
 }
 
+TEST(Guide, PoolsRaysOfFartherPointsThatFaceTheSameWay) {
+  // Of a row of points, all rays of the first one meet a bright patch, and no others do
+  constexpr int kRow = 12;
+  GatherGuide guide{{kRow, 1, kRow, 1}, {}, {}};
+  guide.points.assign(kRow, GuidePoint{vec3(0.0f, 0.0f, 1.0f), 1.0f, 0.0f});
+  guide.points[4].normal_ws = vec3(1.0f, 0.0f, 0.0f);
+  std::vector<PilotHit> hits;
+  for (std::size_t i = 0; i < kRow * kRays; ++i) {
+    const bool bright = i < kRays;
+    hits.push_back(
+        {bright ? vec3(0.0f, 0.0f, 1.0f) : vec3(0.6f, 0.0f, 0.8f), bright ? 9.0f : 0.1f});
+  }
+  place_guide(hits, std::vector<vec3>(kRow, vec3(0.0f)), 1, guide);
+  for (int x = 0; x < kRow; ++x) {
+    const bool pooled = x <= 2 || x == 8;  // at 4, the point faces elsewhere
+    EXPECT_EQ(guide.points[x].share > 0.0f, pooled) << x;
+  }
+}
+
 TEST(Guide, DoesNotTakeNoiseForLight) {
   // One ray in ten brings ten times the mean, wherever it goes
   const GatherGuide guide =
       guide_under([](const vec3&, float drawn) { return drawn < 0.1f ? 10.0f : 0.0f; });
-  for (const GuidePoint& point : guide.points) EXPECT_LT(point.share, 0.5f * kMaxGuidedShare);
+  float mean = 0.0f;
+  for (const GuidePoint& point : guide.points) {
+    EXPECT_LE(point.share, 0.5f * kMaxGuidedShare);
+    mean += point.share / static_cast<float>(kPoints);
+  }
+  EXPECT_LT(mean, 0.06f * kMaxGuidedShare);
 }
 
 TEST(Guide, WeightsOfRaysAreThatOfBothKindsTogether) {
