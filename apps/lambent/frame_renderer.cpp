@@ -159,7 +159,7 @@ Expected<void> FrameRenderer::follow(const Camera& camera, Json& stats) {
 /// lights that the maps include, which is subtracted. Both trace the same rays, so that their noise
 /// cancels.
 Expected<void> FrameRenderer::split_bounces(const Camera& camera, Json& stats) {
-  const auto settings = picture_field_settings(options_, world_, camera, path_boxes_);
+  const auto settings = picture_field_settings(options_, world_, camera, {});
   if (!settings) return tl::unexpected(settings.error());
   const glm::vec3 viewer(camera.world_from_view[3]);
   Expected<IrradianceField> all = make_field(*settings, options_.field, world_, camera, 2);

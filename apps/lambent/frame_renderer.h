@@ -28,9 +28,9 @@ class FrameRenderer {
   /// Size of its pictures [pixels].
   const glm::ivec2& size() const { return size_; }
 
-  /// Before the first picture: the near_box() of places along the path of a camera that moves,
-  /// which get finer probes.
-  void surround(std::vector<Bounds> path_boxes) { path_boxes_ = std::move(path_boxes); }
+  /// Gives places along the path of a camera that moves finer probes, in their near_box(). To be
+  /// called before the first picture; fields that are made anew for each frame do without.
+  void set_path_boxes(std::vector<Bounds> path_boxes) { path_boxes_ = std::move(path_boxes); }
 
   /// Renders the current state of the world to a file. Large pictures are rendered and written some
   /// rows at a time, where the method supports it. For `stops`, see PictureFile. Adds times and

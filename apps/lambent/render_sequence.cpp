@@ -14,15 +14,16 @@
 #include "lambent/words.h"
 
 namespace lambent::cli {
+
 Expected<void> render_sequence(const RenderOptions& options, const PosedScene& posed,
                                const View& view, FrameRenderer& renderer,
                                nlohmann::ordered_json& stats) {
   const InterruptGuard guard;
-  Expected<SequenceSurvey> survey = survey_sequence(options, posed, view);
+  Expected<SequenceSurvey> survey = survey_sequence(options, posed, view, guard);
   if (!survey) return tl::unexpected(survey.error());
-  renderer.surround(std::move(survey->path_boxes));
+  renderer.set_path_boxes(std::move(survey->path_boxes));
   std::optional<float> stops = survey->stops;
-  if (stops) tell("exposure: that of most frames, as the first one's does not suit them");
+  if (stops) tell("exposure: the median of the frames', as the first one's does not suit them");
   stats["fps"] = options.fps;
   nlohmann::ordered_json& list = stats["frames"] = nlohmann::ordered_json::array();
   std::vector<std::string> written;

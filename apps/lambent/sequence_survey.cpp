@@ -16,13 +16,15 @@
 namespace lambent::cli {
 namespace {
 
-// Number of frames that are looked at, the first and the last among them.
+// Number of frames that are looked at, the first and the last among them: enough to tell of most of
+// a sequence, and few beside the frames of one that takes long.
 constexpr int kSurveyed = 9;
 // Longer side of the pictures from which exposures are found [pixels], and paths a pixel. Noise
 // makes the mean of logarithms too dark: in a room lit through a door by 0.1 stops, with twice the
 // side and a quarter of the paths by 0.3.
 constexpr int kExposedSide = 32, kExposedSamples = 256;
-// An exposure that differs by less from the first frame's is not worth a change [stops].
+// An exposure that differs by less from the first frame's is no reason to leave that one [stops]:
+// what is twice as bright as it should be still shows.
 constexpr float kMinDifference = 1.0f;
 
 /// Whether the program chooses the exposure of the sequence.
@@ -31,8 +33,9 @@ bool chooses_exposure(const RenderOptions& options) {
   return asked && !*asked && !has_ending(options.output, ".exr");
 }
 
-/// The exposure that suits a pose [stops].
-float exposure_of_pose(const World& world, const Camera& camera, const RenderOptions& options) {
+/// The exposure that suits a pose [stops]; none where it is black.
+std::optional<float> exposure_of_pose(const World& world, const Camera& camera,
+                                      const RenderOptions& options) {
   const glm::vec2 size(*parse_size("--size", options.size));
   const float scale = std::min(1.0f, kExposedSide / std::max(size.x, size.y));
   ReferenceSettings settings;
@@ -40,18 +43,21 @@ float exposure_of_pose(const World& world, const Camera& camera, const RenderOpt
   settings.height = std::max(1, static_cast<int>(std::lround(scale * size.y)));
   settings.samples = kExposedSamples;
   settings.unlit_radiance = 0.0f;
-  return display_stops(render_reference(world, camera, settings).image);
+  if (options.method == "direct") settings.max_bounces = 0;
+  const ReferenceResult seen = render_reference(world, camera, settings);
+  const std::vector<float>& radiance = seen.image.find("")->pixels;
+  if (std::ranges::all_of(radiance, [](float v) { return v == 0.0f; })) return std::nullopt;
+  return display_stops(seen.image);
 }
 
-/// The exposure for a sequence, of whose frames these are suited by these; none where it is about
-/// that of the first one.
-std::optional<float> common_exposure(std::vector<float> stops) {
+/// The median of the exposures that suit some frames of a sequence; none where it is about that of
+/// the first frame, which has none where it is black.
+std::optional<float> common_exposure(std::vector<float> stops, const std::optional<float>& first) {
   if (stops.empty()) return std::nullopt;
-  const float first = stops.front();
-  const auto middle = stops.begin() + static_cast<std::ptrdiff_t>(stops.size() / 2);
-  std::nth_element(stops.begin(), middle, stops.end());
-  if (std::abs(*middle - first) < kMinDifference) return std::nullopt;
-  return *middle;
+  std::ranges::sort(stops);
+  const float median = 0.5f * (stops[(stops.size() - 1) / 2] + stops[stops.size() / 2]);
+  if (first && std::abs(median - *first) < kMinDifference) return std::nullopt;
+  return median;
 }
 
 }  // namespace
@@ -74,26 +80,29 @@ Expected<Camera> camera_of_pose(const RenderOptions& options, const View& first,
 }
 
 Expected<SequenceSurvey> survey_sequence(const RenderOptions& options, const PosedScene& posed,
-                                         const View& view) {
+                                         const View& view, const InterruptGuard& guard) {
   SequenceSurvey survey;
   if (posed.scene.animations.empty()) return survey;
   begin_step("looking at the sequence");
   const std::optional<FieldGrid> grid =
       uses_field(options) ? refinable_grid(options, posed.world, view.camera) : std::nullopt;
   const bool exposes = chooses_exposure(options);
+  if (!grid && !exposes) return survey;
   // Paths are traced on the processor
   std::optional<World> host;
   if (exposes && posed.world.device() != nullptr) host.emplace(posed.scene);
   const int places = std::min(options.frames, kSurveyed);
   bool moves = false;
-  std::vector<float> stops(exposes ? places : 0);
+  std::vector<float> stops;
+  std::optional<float> suits;
   // The first frame comes last, and stays
   for (int place = places - 1; place >= 0; --place) {
+    if (guard.interrupted()) place = 0;
     const double frame = place * (options.frames - 1.0) / std::max(places - 1, 1);
     const auto changes = pose_at(posed, time_of_frame(options, frame));
     if (!changes) return tl::unexpected(changes.error());
     const Expected<Camera> camera = camera_of_pose(options, view, posed.scene);
-    if (!camera) return tl::unexpected(camera.error());
+    if (!camera) continue;  // the frame will say why
     moves = moves || camera->world_from_view[3] != view.camera.world_from_view[3];
     if (const auto box = grid ? near_box(posed.world, *camera, *grid) : std::nullopt) {
       survey.path_boxes.push_back(*box);
@@ -102,10 +111,12 @@ Expected<SequenceSurvey> survey_sequence(const RenderOptions& options, const Pos
     if (host) {
       if (const auto same = host->update(); !same) return tl::unexpected(same.error());
     }
-    stops[place] = exposure_of_pose(host ? *host : posed.world, *camera, options);
+    suits = exposure_of_pose(host ? *host : posed.world, *camera, options);
+    if (suits) stops.push_back(*suits);
   }
   if (!moves) survey.path_boxes.clear();
-  survey.stops = common_exposure(std::move(stops));
+  std::ranges::reverse(survey.path_boxes);
+  survey.stops = common_exposure(std::move(stops), suits);
   return survey;
 }
 

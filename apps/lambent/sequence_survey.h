@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lambent/error.h"
+#include "lambent/interrupts.h"
 #include "lambent/render_options.h"
 #include "lambent/scene.h"
 #include "lambent/scene_options.h"
@@ -16,8 +17,8 @@ namespace lambent::cli {
 /// A scene that an animation poses for each frame of a sequence.
 struct PosedScene {
   Scene& scene;
-  World& world;    ///< The scene's.
-  int animation;   ///< -1: all at once.
+  World& world;    ///< Of `scene`.
+  int animation;   ///< Index into Scene::animations; -1: all of them play at once.
   bool first_sky;  ///< The sky is in proportion to the scene's suns, see adjust_first_sky().
 };
 
@@ -33,8 +34,8 @@ Expected<Camera> camera_of_pose(const RenderOptions& options, const View& first,
                                 const Scene& scene);
 
 struct SequenceSurvey {
-  /// The near_box() of places along the camera's path; empty where it does not move, and where the
-  /// field needs no finer volumes.
+  /// The near_box() of places along the camera's path, in order; empty where it does not move, and
+  /// where the field needs no finer volumes.
   std::vector<Bounds> path_boxes;
   /// An exposure for all frames [stops], where the options leave it to the program and the first
   /// frame's does not suit the rest: the median of those that suit single frames.
@@ -42,8 +43,9 @@ struct SequenceSurvey {
 };
 
 /// Looks at a few frames of a sequence; path-traces small pictures of them where the exposure is to
-/// be found. `view` is that of the first frame, in whose pose the scene is, and stays.
+/// be found. `view` is that of the first frame, in whose pose the scene is, and stays. An interrupt
+/// ends it early.
 Expected<SequenceSurvey> survey_sequence(const RenderOptions& options, const PosedScene& posed,
-                                         const View& view);
+                                         const View& view, const InterruptGuard& guard);
 
 }  // namespace lambent::cli

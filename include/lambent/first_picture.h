@@ -61,8 +61,9 @@ FirstLight choose_first_light(const World& world, const Camera& camera);
 /// FirstLight::scene changes nothing. `scene` is the world's scene; call World::update afterwards.
 void set_first_light(FirstLight light, const World& world, const Camera& camera, Scene& scene);
 
-/// Sets the sky of FirstLight::sky anew, which is in proportion to the scene's suns as they are
-/// now; nothing changes where it is right already. Call World::update afterwards.
+/// Replaces the scene's environment, with any map, by the sky of FirstLight::sky: constant, and in
+/// proportion to the scene's suns as they are now; black without suns. Raises its revision, but
+/// changes nothing where it is this sky already. Call World::update afterwards.
 void adjust_first_sky(Scene& scene);
 
 /// Removes the sky that a scene brings as a mesh: a dome or a box of emissive or unlit triangles
@@ -92,8 +93,10 @@ std::optional<Bounds> near_box(const World& world, const Camera& camera, const F
 std::vector<ProbeVolume> near_volumes(const World& world, const Camera& camera,
                                       const FieldGrid& grid);
 
-/// near_volumes() for a camera that travels, from its near boxes at places along its path. The
-/// finest volume holds all of them, and has up to four times as many probes.
+/// near_volumes() for a camera that travels, from its near_box() at places along its path [m], in
+/// order, none of them empty. The finest volume holds all of them, and has up to four times as many
+/// probes. Where these would be less than twice as fine as the grid, as along a road, the volumes
+/// are those of the first box alone. None for no boxes.
 std::vector<ProbeVolume> near_volumes(std::span<const Bounds> boxes, const FieldGrid& grid);
 
 }  // namespace lambent

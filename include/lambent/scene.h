@@ -39,9 +39,10 @@ enum class MipWeights : std::uint8_t { equal, alpha };
 /// the plain mean.
 void build_mips(Texture& texture, MipWeights weights = MipWeights::equal);
 /// The same for a normal map, whose texels are not sRGB-encoded and whose alpha it overwrites: with
-/// 1 at the first level, and below with 1 minus how far most of a texel's normals scatter. Where
-/// normals are averaged, coats are rougher by no more than that: flat tiles stay flat between steep
-/// joints. Normal maps with other MIPs, whose alpha is 1, make coats no rougher.
+/// 1 at the first level, and below with 1 minus the standard deviation, 0 to 1, of the slopes of a
+/// texel's normals along each axis, leaving out nearly half of them if these are steeper than the
+/// rest. Coats are rougher by it in views that average over normals: flat tiles stay flat between
+/// steep joints. Alpha is read so at every level; where it is 1, coats are no rougher.
 void build_normal_mips(Texture& texture);
 
 /// How a texture continues beyond its edges.

@@ -25,7 +25,7 @@ inline constexpr int kPlaneGuard = 8;
 struct PlaneLayout {
   int width = 0, height = 0;
   int planes = 0;        ///< Values per pixel.
-  int guard = 0;         ///< Minimum number of empty pixels on all sides.
+  int guard = 0;         ///< Least number of spare pixels on all sides, shared by planes.
   int lead = 0;          ///< Floats before the first pixel of a plane, `guard` or more.
   int stride = 0;        ///< Floats from plane to plane, a multiple of the lanes of a kernel.
   std::size_t size = 0;  ///< Floats, guards included.

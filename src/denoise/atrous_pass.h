@@ -93,9 +93,11 @@ LAMBENT_FN int beyond_ends(int place, int size) {
 }
 
 /// Factor on the share (AtrousLight) of a mirrored neighbour this far beyond the border, in a pass
-/// whose neighbours are `apart`. What it shows is among the pixel's other neighbours, too, the more
-/// the farther it is; at last it is the opposite neighbour, and the noise of both together is not
-/// twice that of one, but four times.
+/// whose neighbours are `apart`. What it shows is shown by another neighbour, too, where it is
+/// `apart` beyond: their noise is then the same, and that of their sum not twice that of one, but
+/// four times. Nearer to the border it shows what lies about the pixel, with which it has some
+/// noise in common. The factor is linear in between, so that no line is seen where neighbours begin
+/// to be mirrored; with 1 in place of 2, there is a sixth more noise beside borders.
 LAMBENT_FN float mirrored_share(int beyond, int apart) {
   return 1.0f + 2.0f * float(beyond) / float(apart);
 }

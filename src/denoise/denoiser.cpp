@@ -30,7 +30,8 @@ struct PlanePicture {
   void shape(int picture_width, int height, int planes) {
     if (width == picture_width && layout.height == height && layout.planes == planes) return;
     width = picture_width;
-    // Borders to the right are part of the layout's pixels, as its padding is shared by two planes
+    // The layout's padding is shared by the end of one plane and the start of the next, and so can
+    // hold the border to the left alone: that to the right is pixels of the layout
     layout = PlaneLayout(width + kDenoiseGuard, height, planes, kDenoiseGuard);
     floats.assign(layout.size, 0.0f);
   }

@@ -126,7 +126,8 @@ std::optional<ProbeVolume> finest_volume(const Bounds& whole, std::span<const Bo
   float least = content(whole);
   for (const Bounds& part : parts) least = std::min(least, content(part));
   const float factor = least > 0.0f ? content(whole) / least : 1.0f;
-  return volume_in(whole, "around the camera", std::min(factor, kMaxPathFactor));
+  return volume_in(whole, parts.size() > 1 ? "along the camera's path" : "around the camera",
+                   std::min(factor, kMaxPathFactor));
 }
 
 }  // namespace
@@ -161,7 +162,10 @@ std::vector<ProbeVolume> near_volumes(std::span<const Bounds> boxes, const Field
   if (!finest) return {};
   const glm::vec3 cells(finest->probe_count - 1);
   const float ratio = longest(grid.spacing) / longest(finest->size / cells);
-  if (ratio < kMinRatio) return {};
+  if (ratio < kMinRatio) {
+    // A long path leaves fine probes for its beginning alone
+    return boxes.size() > 1 ? near_volumes(boxes.first(1), grid) : std::vector<ProbeVolume>();
+  }
 
   // Between its spacing and that of the grid
   std::vector<ProbeVolume> volumes = {*finest};

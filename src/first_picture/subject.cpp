@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "first_picture/subject.h"
-#include "raytracing/trace_rays.h"
 
 #include <algorithm>
+
+#include "raytracing/trace_rays.h"
 
 namespace lambent {
 namespace {

@@ -91,9 +91,10 @@ LAMBENT_FN vec3 map_vector(vec3 texel, float normal_scale) {
   return vec3(n.x * normal_scale, n.y * normal_scale, n.z);
 }
 
-// Square of a GGX width over the variance of normally distributed slopes, half of which are within
-// the same distance: 2 ln 2. Where their peaks are equal it is 2, and where three quarters of them
-// are, 0.9.
+// The square of a GGX width, over the variance of normally distributed slopes, half of which are
+// within the same distance: 2 ln 2. Where their peaks are equal it is 2, and where three quarters
+// of them are, 0.9. The 2 ln 2 in normal_mips.cpp is the median of squared distances, a figure of
+// the measurement.
 const float kGgxOverVariance = 1.3862944f;
 
 /// GGX width of a coat over bumps of which most deviate from their mean by `spread` along each

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raytracing/trace_rays.h"
 
-#include <algorithm>
-
 #include "core/parallel.h"
 #include "raytracing/world_access.h"
 
@@ -16,7 +14,7 @@ constexpr std::size_t kRaysPerTask = 128;
 
 std::vector<Hit> trace(const World& world, std::span<const Ray> rays) {
   std::vector<Hit> hits(rays.size());
-  const std::size_t chunk = std::max(kRaysPerTask, tracer_of(world).batch_rays());
+  const std::size_t chunk = batch_of(tracer_of(world), 1, kRaysPerTask);
   parallel_chunks(rays.size(), chunk, [&](std::size_t begin, std::size_t end) {
     tracer_of(world).closest_hits(rays.subspan(begin, end - begin),
                                   std::span(hits).subspan(begin, end - begin));
@@ -26,7 +24,7 @@ std::vector<Hit> trace(const World& world, std::span<const Ray> rays) {
 
 std::vector<std::uint8_t> trace_occlusion(const World& world, std::span<const Ray> rays) {
   std::vector<std::uint8_t> occluded(rays.size());
-  const std::size_t chunk = std::max(kRaysPerTask, tracer_of(world).batch_rays());
+  const std::size_t chunk = batch_of(tracer_of(world), 1, kRaysPerTask);
   parallel_chunks(rays.size(), chunk, [&](std::size_t begin, std::size_t end) {
     tracer_of(world).occlusions(rays.subspan(begin, end - begin),
                                 std::span(occluded).subspan(begin, end - begin));

@@ -11,10 +11,10 @@
 
 namespace lambent {
 
-/// The nearest hit of each ray.
+/// The nearest hit of each ray, in their order.
 std::vector<Hit> trace(const World& world, std::span<const Ray> rays);
 
-/// 1 for each occluded ray.
+/// 1 for each occluded ray, 0 for the others, in their order.
 std::vector<std::uint8_t> trace_occlusion(const World& world, std::span<const Ray> rays);
 
 }  // namespace lambent

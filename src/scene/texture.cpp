@@ -84,7 +84,7 @@ TextureLevel half_size(const TextureLevel& fine, bool srgb, MipWeights weights) 
           covered += weight * value.a * glm::vec3(value);
         }
       }
-      // Where nothing is covered, there is no such mean, nor does anybody see it
+      // Where nothing is covered, there is no such mean; see fill_uncovered()
       if (weights == MipWeights::alpha && sum.a > 0.0f) sum = glm::vec4(covered / sum.a, sum.a);
       std::uint8_t* out = &coarse.rgba[(static_cast<std::size_t>(y) * coarse.width + x) * 4];
       for (int k = 0; k < 3; ++k) out[k] = srgb ? encode_srgb(sum[k]) : byte_from_unit(sum[k]);
@@ -94,6 +94,21 @@ TextureLevel half_size(const TextureLevel& fine, bool srgb, MipWeights weights) 
   return coarse;
 }
 
+/// Gives texels that nothing covers the colour of what is around them, from the next level: it
+/// shows beside covered ones where texels are interpolated.
+void fill_uncovered(TextureLevel& level, const TextureLevel& coarser) {
+  for (int y = 0; y < level.height; ++y) {
+    const int above = std::min(y / 2, coarser.height - 1);
+    for (int x = 0; x < level.width; ++x) {
+      std::uint8_t* texel = &level.rgba[(static_cast<std::size_t>(y) * level.width + x) * 4];
+      if (texel[3] > 0) continue;
+      const int beside = std::min(x / 2, coarser.width - 1);
+      const std::size_t from = static_cast<std::size_t>(above) * coarser.width + beside;
+      std::copy_n(&coarser.rgba[from * 4], 3, texel);
+    }
+  }
+}
+
 }  // namespace
 
 void build_mips(Texture& texture, MipWeights weights) {
@@ -101,6 +116,11 @@ void build_mips(Texture& texture, MipWeights weights) {
   texture.levels.resize(1);
   while (texture.levels.back().width > 1 || texture.levels.back().height > 1) {
     texture.levels.push_back(half_size(texture.levels.back(), texture.srgb, weights));
+  }
+  if (weights == MipWeights::equal) return;
+  // From the coarsest on, so that colours reach far; the file's own texels stay
+  for (std::size_t level = texture.levels.size() - 1; level-- > 1;) {
+    fill_uncovered(texture.levels[level], texture.levels[level + 1]);
   }
 }
 

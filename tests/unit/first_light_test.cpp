@@ -72,9 +72,11 @@ TEST(FirstLight, IsASkyInProportionWhereSunsShineOutOfTheVoid) {
 
   // It follows the suns, and nothing changes where it is right
   scene.lights[0].intensity *= 2.0f;
+  const std::uint32_t before = scene.environment.revision;
   adjust_first_sky(scene);
   EXPECT_NEAR(scene.environment.radiance.b, 0.4f * 2.6f, 1e-4f);
   const std::uint32_t revision = scene.environment.revision;
+  EXPECT_GT(revision, before);
   adjust_first_sky(scene);
   EXPECT_EQ(scene.environment.revision, revision);
 

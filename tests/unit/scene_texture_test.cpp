@@ -159,6 +159,12 @@ TEST(BuildMips, ShowOnlyWhatIsCoveredWhereAlphaSaysSo) {
   }
   build_mips(texture);
   EXPECT_EQ(texture.levels[1].rgba[0], 50);
+
+  // Where nothing is covered, colours are those of what is around
+  for (int i = 0; i < 16; ++i) texture.levels[0].rgba[4 * i + 3] = i == 5 ? 255 : 0;
+  build_mips(texture, MipWeights::alpha);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(texture.levels[1].rgba[4 * i], 200) << i;
+  EXPECT_EQ(texture.levels[0].rgba[0], 0);
 }
 
 TEST(BuildNormalMips, TellOfBumpsThatRoundingHidesInTheMeanNormal) {

@@ -9,8 +9,8 @@
 
 namespace lambent::gltf {
 
-/// What a texture's texels are: sRGB-encoded colours; likewise, where alpha tells how much of each
-/// texel is covered; numbers; or a normal map's vectors.
+/// What a texture's texels are: sRGB-encoded colours; such colours with an alpha that tells how
+/// much of each texel is covered; numbers; or a normal map's vectors.
 enum class Texels : std::uint8_t { color, covering_color, data, normals };
 
 /// Collects the uses of images by materials, as kinds of texels, and then decodes each use once.
