@@ -55,21 +55,23 @@ TEST(Guide, SendsNoRaysWhereLightIsTheSameAllAround) {
 }
 
 TEST(Guide, PoolsRaysOfFartherPointsThatFaceTheSameWay) {
-  // Of a row of points, all rays of the first one meet a bright patch, and no others do
+  // Of a row of points, all rays of the first one meet a bright patch, and no others do. Only
+  // points with more rays than the fewest pool farther ones
   constexpr int kRow = 12;
-  GatherGuide guide{{kRow, 1, kRow, 1}, {}, {}};
-  guide.points.assign(kRow, GuidePoint{vec3(0.0f, 0.0f, 1.0f), 1.0f, 0.0f});
-  guide.points[4].normal_ws = vec3(1.0f, 0.0f, 0.0f);
-  std::vector<PilotHit> hits;
-  for (std::size_t i = 0; i < kRow * kRays; ++i) {
-    const bool bright = i < kRays;
-    hits.push_back(
-        {bright ? vec3(0.0f, 0.0f, 1.0f) : vec3(0.6f, 0.0f, 0.8f), bright ? 9.0f : 0.1f});
-  }
-  place_guide(hits, std::vector<vec3>(kRow, vec3(0.0f)), 1, guide);
-  for (int x = 0; x < kRow; ++x) {
-    const bool pooled = x <= 2 || x == 8;  // at 4, the point faces elsewhere
-    EXPECT_EQ(guide.points[x].share > 0.0f, pooled) << x;
+  for (const std::size_t rays : {kRays, 2 * kRays}) {
+    GatherGuide guide{{kRow, 1, kRow, 1}, {}, {}};
+    guide.points.assign(kRow, GuidePoint{vec3(0.0f, 0.0f, 1.0f), 1.0f, 0.0f});
+    guide.points[4].normal_ws = vec3(1.0f, 0.0f, 0.0f);
+    std::vector<PilotHit> hits;
+    for (std::size_t i = 0; i < kRow * rays; ++i) {
+      hits.push_back(i < rays ? PilotHit{vec3(0.0f, 0.0f, 1.0f), 9.0f}
+                              : PilotHit{vec3(0.6f, 0.0f, 0.8f), 0.1f});
+    }
+    place_guide(hits, std::vector<vec3>(kRow, vec3(0.0f)), 1, guide);
+    for (int x = 0; x < kRow; ++x) {
+      const bool pooled = x <= 2 || (x == 8 && rays > kRays);  // at 4, the point faces elsewhere
+      EXPECT_EQ(guide.points[x].share > 0.0f, pooled) << x;
+    }
   }
 }
 
