@@ -57,9 +57,10 @@ Expected<IrradianceField> open_field(const RenderOptions& options, const World& 
                                      const Camera& camera, std::span<const Bounds> path_boxes) {
   const auto settings = picture_field_settings(options, world, camera, path_boxes);
   if (!settings) return tl::unexpected(settings.error());
-  if (settings->volumes.size() > world.scene().volumes.size() + options.field.volumes.size()) {
-    const std::string where = path_boxes.empty() ? "around the camera" : "along the camera's path";
-    tell("probes: finer ones " + where + ", as the scene is large (--bounds places them)");
+  const std::size_t asked = world.scene().volumes.size() + options.field.volumes.size();
+  if (settings->volumes.size() > asked) {
+    tell("probes: finer ones " + settings->volumes[asked].name +
+         ", as the scene is large (--bounds places them)");
   }
   if (options.field_file.empty()) return make_field(*settings, options.field, world, camera, 1);
   Expected<LoadedField> loaded = load_field(options.field_file, *settings, world);
@@ -96,13 +97,6 @@ void book(const RenderedFrame& frame, Json& stats) {
   stats["camera_rays"] = stats.value("camera_rays", std::uint64_t{0}) + frame.rays;
 }
 
-/// The size of a preview of the same view, from which its brightness is found.
-glm::ivec2 preview_of(const glm::ivec2& size, int side) {
-  const double scale = std::min(1.0, static_cast<double>(side) / std::max(size.x, size.y));
-  return {std::max(1, static_cast<int>(std::lround(size.x * scale))),
-          std::max(1, static_cast<int>(std::lround(size.y * scale)))};
-}
-
 // Number of updates after which all bounces have reached all probes; noise remains.
 constexpr int kFewUpdates = 8;
 
@@ -120,6 +114,12 @@ int first_updates(const RenderOptions& options) {
 }
 
 }  // namespace
+
+glm::ivec2 preview_of(const glm::ivec2& size, int side) {
+  const double scale = std::min(1.0, static_cast<double>(side) / std::max(size.x, size.y));
+  return {std::max(1, static_cast<int>(std::lround(size.x * scale))),
+          std::max(1, static_cast<int>(std::lround(size.y * scale)))};
+}
 
 FrameRenderer::FrameRenderer(const RenderOptions& options, const World& world,
                              const glm::ivec2& size)

@@ -19,6 +19,10 @@
 
 namespace lambent::cli {
 
+/// The size of a preview of a view from which its brightness is found, with a longer side of at
+/// most `side` [pixels].
+glm::ivec2 preview_of(const glm::ivec2& size, int side);
+
 /// Renders pictures of a world, one after the other, lit by one field that follows the world.
 class FrameRenderer {
  public:

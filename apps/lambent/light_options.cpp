@@ -154,18 +154,22 @@ Expected<void> add_asked_light(const LightOptions& options, Scene& scene) {
 Expected<AddedLight> add_first_light(const LightOptions& options, const Camera& camera,
                                      const std::optional<Scene>& sky_dome, Scene& scene,
                                      World& world) {
-  const auto own = [](std::string text) { return AddedLight{FirstLight::scene, std::move(text)}; };
-  if (options.light == "none" && !names_light(options)) return own("none but what surfaces emit");
+  const auto nothing_added = [](std::string text) {
+    return AddedLight{FirstLight::scene, std::move(text)};
+  };
+  if (options.light == "none" && !names_light(options))
+    return nothing_added("none but what surfaces emit");
   if (sky_dome && options.sky.empty() && options.environment.empty()) {
     const std::uint32_t revision = scene.environment.revision + 1;
     scene.environment = sky_of_dome(*sky_dome, glm::vec3(camera.world_from_view[3]));
     scene.environment.revision = revision;
     if (const auto changes = world.update(); !changes) return tl::unexpected(changes.error());
   }
-  if (names_light(options)) return own("as asked");
+  if (names_light(options)) return nothing_added("as asked");
   const FirstLight light =
       options.light == "auto" ? choose_first_light(world, camera) : light_of_name(options.light);
-  if (light == FirstLight::scene) return own(describe(light, scene, sky_dome.has_value()));
+  if (light == FirstLight::scene)
+    return nothing_added(describe(light, scene, sky_dome.has_value()));
   set_first_light(light, world, camera, scene);
   if (const auto changes = world.update(); !changes) return tl::unexpected(changes.error());
   AddedLight added = {light, describe(light, scene, false)};

@@ -31,11 +31,10 @@ void add_light_options(CLI::App& command, LightOptions& options);
 /// request it.
 Expected<void> add_asked_light(const LightOptions& options, Scene& scene);
 
-/// Light that was added to a scene: of which kind, FirstLight::scene where it is all the scene's or
-/// the options' own, and a description.
+/// What lights a scene.
 struct AddedLight {
-  FirstLight kind;
-  std::string description;
+  FirstLight kind;          ///< FirstLight::scene where the program added no light of its own.
+  std::string description;  ///< For people.
 };
 
 /// Adds the light that the options leave to the program, as the camera's view needs it, and updates

@@ -27,6 +27,15 @@ bool places_probes(const FieldSettings& settings) {
          settings.volume != Bounds{} || settings.cascades > 0 || !settings.volumes.empty();
 }
 
+/// The grid of these settings, if it may have finer volumes around the camera.
+std::optional<FieldGrid> grid_to_refine(const RenderOptions& options, const FieldSettings& settings,
+                                        const World& world, const Camera& camera) {
+  if (!options.field_file.empty() || places_probes(settings)) return std::nullopt;
+  const glm::vec3 eye(camera.world_from_view[3]);
+  const Expected<FieldGrid> grid = fit_grid(settings, open_bounds(world, eye));
+  return grid ? std::optional(*grid) : std::nullopt;
+}
+
 }  // namespace
 
 Quality quality_from_name(const std::string& name) {
@@ -99,10 +108,7 @@ FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& siz
 std::optional<FieldGrid> refinable_grid(const RenderOptions& options, const World& world,
                                         const Camera& camera) {
   const auto settings = field_settings(options.field, world.scene(), options.seed, options.bounces);
-  if (!settings || !options.field_file.empty() || places_probes(*settings)) return std::nullopt;
-  const glm::vec3 eye(camera.world_from_view[3]);
-  const Expected<FieldGrid> grid = fit_grid(*settings, open_bounds(world, eye));
-  return grid ? std::optional(*grid) : std::nullopt;
+  return settings ? grid_to_refine(options, *settings, world, camera) : std::nullopt;
 }
 
 Expected<FieldSettings> picture_field_settings(const RenderOptions& options, const World& world,
@@ -113,7 +119,7 @@ Expected<FieldSettings> picture_field_settings(const RenderOptions& options, con
   if (options.field.visibility.empty() && chosen_quality(options) == Quality::high) {
     settings->visibility = Visibility::hybrid;
   }
-  const std::optional<FieldGrid> grid = refinable_grid(options, world, camera);
+  const std::optional<FieldGrid> grid = grid_to_refine(options, *settings, world, camera);
   if (!grid) return settings;
   for (ProbeVolume& volume :
        path_boxes.empty() ? near_volumes(world, camera, *grid) : near_volumes(path_boxes, *grid)) {

@@ -19,7 +19,7 @@ Expected<void> render_sequence(const RenderOptions& options, const PosedScene& p
                                const View& view, FrameRenderer& renderer,
                                nlohmann::ordered_json& stats) {
   const InterruptGuard guard;
-  Expected<SequenceSurvey> survey = survey_sequence(options, posed, view, guard);
+  Expected<SequenceSurvey> survey = survey_sequence(options, posed, view, renderer.size(), guard);
   if (!survey) return tl::unexpected(survey.error());
   renderer.set_path_boxes(std::move(survey->path_boxes));
   std::optional<float> stops = survey->stops;

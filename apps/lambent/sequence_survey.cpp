@@ -7,6 +7,7 @@
 #include "core/image/exposure.h"
 #include "lambent/animation.h"
 #include "lambent/first_picture.h"
+#include "lambent/frame_renderer.h"
 #include "lambent/output.h"
 #include "lambent/parse.h"
 #include "lambent/quality.h"
@@ -35,12 +36,11 @@ bool chooses_exposure(const RenderOptions& options) {
 
 /// The exposure that suits a pose [stops]; none where it is black.
 std::optional<float> exposure_of_pose(const World& world, const Camera& camera,
-                                      const RenderOptions& options) {
-  const glm::vec2 size(*parse_size("--size", options.size));
-  const float scale = std::min(1.0f, kExposedSide / std::max(size.x, size.y));
+                                      const RenderOptions& options, const glm::ivec2& size) {
+  const glm::ivec2 preview = preview_of(size, kExposedSide);
   ReferenceSettings settings;
-  settings.width = std::max(1, static_cast<int>(std::lround(scale * size.x)));
-  settings.height = std::max(1, static_cast<int>(std::lround(scale * size.y)));
+  settings.width = preview.x;
+  settings.height = preview.y;
   settings.samples = kExposedSamples;
   settings.unlit_radiance = 0.0f;
   if (options.method == "direct") settings.max_bounces = 0;
@@ -80,7 +80,8 @@ Expected<Camera> camera_of_pose(const RenderOptions& options, const View& first,
 }
 
 Expected<SequenceSurvey> survey_sequence(const RenderOptions& options, const PosedScene& posed,
-                                         const View& view, const InterruptGuard& guard) {
+                                         const View& view, const glm::ivec2& size,
+                                         const InterruptGuard& guard) {
   SequenceSurvey survey;
   if (posed.scene.animations.empty()) return survey;
   begin_step("looking at the sequence");
@@ -111,7 +112,7 @@ Expected<SequenceSurvey> survey_sequence(const RenderOptions& options, const Pos
     if (host) {
       if (const auto same = host->update(); !same) return tl::unexpected(same.error());
     }
-    suits = exposure_of_pose(host ? *host : posed.world, *camera, options);
+    suits = exposure_of_pose(host ? *host : posed.world, *camera, options, size);
     if (suits) stops.push_back(*suits);
   }
   if (!moves) survey.path_boxes.clear();

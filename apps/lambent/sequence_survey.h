@@ -2,6 +2,7 @@
 // What must be known of a whole sequence before its first frame is rendered.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <optional>
 #include <vector>
 
@@ -43,9 +44,10 @@ struct SequenceSurvey {
 };
 
 /// Looks at a few frames of a sequence; path-traces small pictures of them where the exposure is to
-/// be found. `view` is that of the first frame, in whose pose the scene is, and stays. An interrupt
-/// ends it early.
+/// be found. `size`: of the frames [pixels]. `view` is that of the first frame, in whose pose the
+/// scene is, and stays. An interrupt ends it early.
 Expected<SequenceSurvey> survey_sequence(const RenderOptions& options, const PosedScene& posed,
-                                         const View& view, const InterruptGuard& guard);
+                                         const View& view, const glm::ivec2& size,
+                                         const InterruptGuard& guard);
 
 }  // namespace lambent::cli

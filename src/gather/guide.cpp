@@ -16,9 +16,9 @@
 namespace lambent {
 namespace {
 
-// Fewest and most rays of a point: one for each pixel of the picture that it stands for. Pools of
-// 49 points have 784 and more of them, which find what is a thousandth of the hemisphere. Where
-// some pools find it and others do not, the filter leaves squares.
+// Fewest and most rays of a point: one for each pixel of the picture that it stands for. The 400
+// rays of pools of 25 points find what is a hundredth of the hemisphere, up to 3,136 of pools of 49
+// what is a thousandth. Where some pools find it and others do not, squares are seen.
 constexpr uint kMinPilotRays = 16, kMaxPilotRays = 64;
 // Points of a task on the processor, and rays of one whose rays a device traces, which waits for
 // each task: in about 15 MB.
@@ -31,8 +31,8 @@ constexpr uint kPlacesSalt = 0x9E3779B1u;
 
 // Points pool the rays of those up to this far away along both axes of the pilot's picture, and of
 // as many others that are this far apart. Points of pilots that are hardly smaller than their
-// picture, and have the fewest rays, leave these out: they see other things. In a hall lit by tubes
-// below their housings, at 48x27, they take 4 % of the light.
+// picture, and have the fewest rays, leave these out, which are far away there: with them, a hall
+// lit by tubes below their housings has 4 % less light after the filter, at 48x27.
 constexpr int kPoolReach = 2, kFarApart = 4;
 // Pooled points face about the same way, within 26 degrees: a pool stands for one hemisphere.
 constexpr float kPoolCosine = 0.9f;
