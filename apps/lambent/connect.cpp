@@ -104,53 +104,73 @@ struct Costs {
   }
 };
 
-/// The next picture. Fails once the server ends the stream, with the server's reason.
-Expected<stream::Picture> next_picture(stream::Client& client, std::chrono::milliseconds timeout) {
-  const auto end = std::chrono::steady_clock::now() + timeout;
-  std::string said;
+/// The next picture.
+Expected<stream::Picture> next_picture(ServerSession& session) {
+  const auto end = std::chrono::steady_clock::now() + session.timeout();
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
         end - std::chrono::steady_clock::now());
     if (left.count() <= 0) break;
-    auto message = client.receive(left);
-    if (!message) {
-      Error error = message.error();
-      if (!said.empty()) error.cause += "; it said: " + printable(said);
-      return tl::unexpected(error);
-    }
+    auto message = session.receive(left);
+    if (!message) return tl::unexpected(message.error());
     if (!*message) break;
-    if (const auto* refusal = std::get_if<stream::Refusal>(&**message)) said = refusal->text;
     if (auto* picture = std::get_if<stream::Picture>(&**message)) return std::move(*picture);
   }
   return fail("", "", "no picture came in time", Error::Kind::failed);
 }
 
-Expected<void> receive_frames(const ConnectOptions& options, stream::Client& client,
-                              std::chrono::milliseconds timeout) {
-  auto decoder = stream::PictureDecoder::make();
-  if (!decoder) return tl::unexpected(decoder.error());
-  const std::uint32_t first_input = options.eye.empty() ? 0 : kCameraInput;
+/// The pictures written so far.
+struct ReceivedFrames {
   std::vector<std::string> written;
   Costs costs;
   glm::uvec2 size{0};
-  const InterruptGuard guard;
-  while (static_cast<int>(written.size()) < options.frames && !guard.interrupted()) {
-    const auto picture = next_picture(client, timeout);
+};
+
+/// Writes pictures until there are enough, or the connection is lost.
+Expected<void> receive_frames(const ConnectOptions& options,
+                              const std::optional<stream::CameraInput>& camera,
+                              const InterruptGuard& guard, ServerSession& session,
+                              ReceivedFrames& frames) {
+  auto decoder = stream::PictureDecoder::make();
+  if (!decoder) return tl::unexpected(decoder.error());
+  if (camera) {
+    if (const auto sent = session.send(*camera); !sent) return sent;
+  }
+  const std::uint32_t first_input = camera ? kCameraInput : 0;
+  while (static_cast<int>(frames.written.size()) < options.frames && !guard.interrupted()) {
+    const auto picture = next_picture(session);
     if (!picture) return tl::unexpected(picture.error());
     const auto decoded = decoder->decode(picture->bytes);
     if (!decoded) return tl::unexpected(decoded.error());
-    const auto told = client.send(stream::Received{picture->number, 0.0f});
+    const auto told = session.send(stream::Received{picture->number, 0.0f});
     if (!told) return told;
     if (picture->input < first_input) continue;  // from the camera before
-    const std::string path = name_of_frame(options, written.size());
+    const std::string path = name_of_frame(options, frames.written.size());
     if (const auto done = write_png(path, stream::to_display(*decoded)); !done) return done;
-    written.push_back(path);
-    costs.add(*picture);
-    size = picture->size;
+    frames.written.push_back(path);
+    frames.costs.add(*picture);
+    frames.size = picture->size;
+    session.bore_fruit();
   }
-  if (written.empty()) return fail("", "", "was interrupted", Error::Kind::failed);
-  tell_written(written, pixels_text(static_cast<int>(size.x), static_cast<int>(size.y)),
-               costs.text());
+  return {};
+}
+
+/// Writes the pictures of a server, over as many connections as it takes.
+Expected<void> receive_pictures(const ConnectOptions& options,
+                                const std::optional<stream::CameraInput>& camera,
+                                ServerSession& session) {
+  ReceivedFrames frames;
+  const InterruptGuard guard;
+  for (;;) {
+    const auto done = receive_frames(options, camera, guard, session, frames);
+    if (done) break;
+    if (!session.is_lost()) return done;
+    if (const auto back = session.join_again(done.error(), guard); !back) return back;
+  }
+  if (frames.written.empty()) return fail("", "", "was interrupted", Error::Kind::failed);
+  tell_written(frames.written,
+               pixels_text(static_cast<int>(frames.size.x), static_cast<int>(frames.size.y)),
+               frames.costs.text());
   return {};
 }
 
@@ -193,18 +213,17 @@ Expected<void> connect(const ConnectOptions& options) {
   if (!camera) return tl::unexpected(camera.error());
 
   begin_step("connecting");
-  auto joined = stream::join(*settings, *hello);
-  if (!joined) return tl::unexpected(joined.error());
+  auto session = ServerSession::join(*settings, *hello);
+  if (!session) return tl::unexpected(session.error());
   if (const auto made = make_folders(options.output); !made) return made;
   Expected<void> done;
   if (options.scene.file.empty()) {
-    if (*camera) done = joined->client->send(**camera);
     begin_step("receiving pictures");
-    if (done) done = receive_frames(options, *joined->client, settings->timeout);
+    done = receive_pictures(options, *camera, *session);
   } else {
-    done = render_by_stream(options, *settings, *joined, *camera);
+    done = render_by_stream(options, *session, *camera);
   }
-  joined->client->close();
+  session->close();
   return done;
 }
 

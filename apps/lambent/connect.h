@@ -8,6 +8,7 @@
 
 #include "lambent/error.h"
 #include "lambent/scene_options.h"
+#include "lambent/server_session.h"
 #include "stream/client/client.h"
 
 namespace lambent::cli {
@@ -40,8 +41,7 @@ std::string name_of_frame(const ConnectOptions& options, std::size_t frame);
 
 /// Renders the options' scene in the light of a server, one picture for each update of the light.
 /// `camera` replaces the server's camera.
-Expected<void> render_by_stream(const ConnectOptions& options,
-                                const stream::ConnectSettings& settings, stream::Joined& joined,
+Expected<void> render_by_stream(const ConnectOptions& options, ServerSession& session,
                                 const std::optional<stream::CameraInput>& camera);
 
 }  // namespace lambent::cli

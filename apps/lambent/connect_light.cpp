@@ -24,20 +24,21 @@ namespace lambent::cli {
 namespace {
 
 /// Receives and answers messages until the light changes.
-Expected<void> wait_for_light(stream::Client& client, stream::LitScene& lit,
-                              std::chrono::milliseconds timeout) {
-  const auto end = std::chrono::steady_clock::now() + timeout;
+Expected<void> wait_for_light(ServerSession& session, stream::LitScene& lit) {
+  const auto end = std::chrono::steady_clock::now() + session.timeout();
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
         end - std::chrono::steady_clock::now());
     if (left.count() <= 0) break;
-    const auto message = client.receive(left);
+    const auto message = session.receive(left);
     if (!message) return tl::unexpected(message.error());
     if (!*message) break;
+    // What a server says before it ends the connection is kept by the session
+    if (std::holds_alternative<stream::Refusal>(**message)) continue;
     const auto followed = lit.follow(**message);
     if (!followed) return tl::unexpected(followed.error());
     if (followed->answer) {
-      if (const auto sent = client.send(*followed->answer); !sent) return sent;
+      if (const auto sent = session.send(*followed->answer); !sent) return sent;
     }
     if (followed->lit) return {};
   }
@@ -55,73 +56,113 @@ RenderOptions render_options(const ConnectOptions& options) {
   return render;
 }
 
-}  // namespace
+/// Pictures of the options' scene in the light of a server.
+class LitPictures {
+ public:
+  LitPictures(const ConnectOptions& options, const std::optional<stream::CameraInput>& camera)
+      : options_(options),
+        camera_(camera),
+        render_(render_options(options)),
+        stops_(*parse_exposure(options.exposure)) {}
 
-Expected<void> render_by_stream(const ConnectOptions& options,
-                                const stream::ConnectSettings& settings, stream::Joined& joined,
-                                const std::optional<stream::CameraInput>& camera) {
-  begin_step("reading the scene");
-  Expected<OpenedScene> opened = open_lit_scene(options.scene);
-  if (!opened) return tl::unexpected(opened.error());
-  Scene& scene = opened->scene;
-  begin_step("preparing the scene for rays");
-  World world(scene);
-  // The server chose its first light by its own view, so choose it here by the same view
-  const auto light = add_first_light(options.scene.light, stream::camera_of(joined.welcome.camera),
-                                     opened->sky_dome, scene, world);
-  if (!light) return tl::unexpected(light.error());
-  const auto same = check_same_scene("HOST", options.server, joined.welcome, scene);
-  if (!same) return same;
-  const RenderOptions render = render_options(options);
-  const auto size = parse_size("--size", options.size);
-  if (!size) return tl::unexpected(size.error());
-  FrameSettings frame = frame_settings(render, *size);
-
-  stream::LitScene lit(scene, world);
-  if (options.codec == "h265") {
-    auto reader = stream::make_h265_reader();
-    if (!reader) return tl::unexpected(reader.error());
-    lit.read_textures(std::move(*reader));
-  }
-  if (options.interest > 0.0f) {
-    if (camera) {
-      if (const auto sent = joined.client->send(*camera); !sent) return sent;
+  /// Opens the scene as the server opened it, and writes pictures until there are enough, or the
+  /// connection is lost. Those written before stay.
+  Expected<void> write(ServerSession& session, const InterruptGuard& guard) {
+    begin_step("reading the scene");
+    Expected<OpenedScene> opened = open_lit_scene(options_.scene);
+    if (!opened) return tl::unexpected(opened.error());
+    Scene& scene = opened->scene;
+    begin_step("preparing the scene for rays");
+    World world(scene);
+    // The server chose its first light by its own view, so choose it here by the same view
+    const auto light =
+        add_first_light(options_.scene.light, stream::camera_of(session.welcome().camera),
+                        opened->sky_dome, scene, world);
+    if (!light) return tl::unexpected(light.error());
+    const auto same = check_same_scene("HOST", options_.server, session.welcome(), scene);
+    if (!same) return same;
+    stream::LitScene lit(scene, world);
+    if (const auto asked = ask_for_light(session, lit); !asked) return asked;
+    std::optional<Renderer> renderer;
+    while (static_cast<int>(written_.size()) < options_.frames && !guard.interrupted()) {
+      begin_step("receiving light");
+      if (const auto came = wait_for_light(session, lit); !came) return came;
+      begin_step("rendering the picture");
+      if (!renderer) renderer.emplace(world, IndirectSources{lit.field()});
+      const Camera from = stream::camera_of(camera_.value_or(session.welcome().camera));
+      if (const auto done = write_next(from, world, *renderer); !done) return done;
+      session.bore_fruit();
     }
-    const auto sent = joined.client->send(stream::Interest{options.interest});
-    if (!sent) return sent;
+    return {};
   }
-  std::optional<Renderer> renderer;
-  std::optional<float> stops = *parse_exposure(options.exposure);
-  std::vector<std::string> written;
-  RenderedFrame picture;
-  const InterruptGuard guard;
-  while (static_cast<int>(written.size()) < options.frames && !guard.interrupted()) {
-    begin_step("receiving light");
-    const auto came = wait_for_light(*joined.client, lit, settings.timeout);
-    if (!came) return came;
-    begin_step("rendering the picture");
-    if (!renderer) renderer.emplace(world, IndirectSources{lit.field()});
-    const Camera from = stream::camera_of(camera.value_or(joined.welcome.camera));
-    if (!stops && shows_unlit(world.scene())) {
+
+  Expected<void> tell() const {
+    if (written_.empty()) return fail("", "", "was interrupted", Error::Kind::failed);
+    const auto size = *parse_size("--size", options_.size);
+    tell_written(written_, pixels_text(size.x, size.y), stops_ ? exposure_text(*stops_) : "");
+    return {};
+  }
+
+ private:
+  Expected<void> ask_for_light(ServerSession& session, stream::LitScene& lit) const {
+    if (options_.codec == "h265") {
+      auto reader = stream::make_h265_reader();
+      if (!reader) return tl::unexpected(reader.error());
+      lit.read_textures(std::move(*reader));
+    }
+    if (options_.interest <= 0.0f) return {};
+    if (camera_) {
+      if (const auto sent = session.send(*camera_); !sent) return sent;
+    }
+    return session.send(stream::Interest{options_.interest});
+  }
+
+  /// Renders and writes one picture.
+  Expected<void> write_next(const Camera& from, const World& world, Renderer& renderer) {
+    const auto size = *parse_size("--size", options_.size);
+    FrameSettings frame = frame_settings(render_, size);
+    if (!stops_ && shows_unlit(world.scene())) {
       // First find the exposure without unlit surfaces; these then show their colours at that
       // exposure
       frame.unlit_radiance = 0.0f;
-      if (const auto done = renderer->render(from, frame, picture); !done) return done;
-      stops = display_stops(picture.image);
+      if (const auto done = renderer.render(from, frame, picture_); !done) return done;
+      stops_ = display_stops(picture_.image);
     }
-    if (stops && shows_unlit(world.scene())) {
-      frame.unlit_radiance = radiance_of_colors(*tone_map_from_name(options.tone_map), *stops);
+    if (stops_ && shows_unlit(world.scene())) {
+      frame.unlit_radiance = radiance_of_colors(*tone_map_from_name(options_.tone_map), *stops_);
     }
-    if (const auto done = renderer->render(from, frame, picture); !done) return done;
-    const std::string path = name_of_frame(options, written.size());
-    PictureFile file(render, path, *size, stops);
-    if (const auto done = file.write(picture.image); !done) return done;
+    if (const auto done = renderer.render(from, frame, picture_); !done) return done;
+    const std::string path = name_of_frame(options_, written_.size());
+    PictureFile file(render_, path, size, stops_);
+    if (const auto done = file.write(picture_.image); !done) return done;
     if (const auto done = file.finish(); !done) return done;
-    written.push_back(path);
+    written_.push_back(path);
+    return {};
   }
-  if (written.empty()) return fail("", "", "was interrupted", Error::Kind::failed);
-  tell_written(written, pixels_text(size->x, size->y), stops ? exposure_text(*stops) : "");
-  return {};
+
+  const ConnectOptions& options_;
+  const std::optional<stream::CameraInput>& camera_;
+  const RenderOptions render_;
+  std::optional<float> stops_;
+  std::vector<std::string> written_;
+  RenderedFrame picture_;
+};
+
+}  // namespace
+
+Expected<void> render_by_stream(const ConnectOptions& options, ServerSession& session,
+                                const std::optional<stream::CameraInput>& camera) {
+  if (const auto size = parse_size("--size", options.size); !size) {
+    return tl::unexpected(size.error());
+  }
+  LitPictures pictures(options, camera);
+  const InterruptGuard guard;
+  for (;;) {
+    const auto done = pictures.write(session, guard);
+    if (done) return pictures.tell();
+    if (!session.is_lost()) return done;
+    if (const auto back = session.join_again(done.error(), guard); !back) return back;
+  }
 }
 
 }  // namespace lambent::cli

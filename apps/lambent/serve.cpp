@@ -29,6 +29,7 @@
 #include "scenes/glb_writer.h"
 #include "stream/edits/edits.h"
 #include "stream/server/access.h"
+#include "stream/server/listener.h"
 #include "stream/server/server.h"
 
 namespace lambent::cli {
@@ -105,7 +106,7 @@ Expected<void> check(const ServeOptions& options) {
   }
   const auto fine = field_settings(options.field, {}, options.seed, -1);
   if (!fine) return tl::unexpected(fine.error());
-  return {};
+  return stream::Listener::check_files(listen);
 }
 
 /// The scene as a file for clients.

@@ -165,6 +165,27 @@ TEST(Hostile, SilentConnectionsAreEnded) {
   EXPECT_EQ(http_get(served.port(), "", "GET / HTTP/1.1\r\n"), "");
 }
 
+TEST(Hostile, SilentConnectionsGiveWayToThoseThatAsk) {
+  ServerSettings settings = ServedScene::small_settings();
+  settings.max_clients = 1;
+  settings.listen.max_connections = 1;
+  const ServedScene served(settings);
+  auto joined = join(served.address(), small_hello());
+  ASSERT_TRUE(joined);
+  // Many more than are accepted, of which half have asked for a WebSocket
+  std::vector<test::Connection> silent;
+  std::vector<std::unique_ptr<Client>> without_hello;
+  for (int i = 0; i < 60; ++i) {
+    silent.emplace_back(served.port());
+    without_hello.push_back(connect(served));
+    ASSERT_TRUE(without_hello.back());
+  }
+  EXPECT_THAT(http_get(served.port(), "/healthz"), HasSubstr("\r\n\r\nok"));
+  EXPECT_GT(served.stats().refused, 50u);
+  // Who has joined stays
+  EXPECT_TRUE(next<Picture>(*joined->client));
+}
+
 TEST(Hostile, HalfOpenConnectionsTimeOut) {
   ServerSettings settings = ServedScene::small_settings();
   settings.listen.idle_timeout = std::chrono::milliseconds(400);

@@ -229,8 +229,46 @@ TEST(ServeCommand, RefusesOptionsThatDoNotGoTogetherBeforeItReadsTheScene) {
   refused("--light-from localhost --probes 3x3x3", "--probes");
   refused("--light-token file", "--light-from");
   refused("--light-from localhost:99999", "1 to 65535");
+  refused("--tokens /nowhere/tokens", "/nowhere/tokens");
+  refused("--certificate /nowhere/c.pem --key /nowhere/k.pem", "/nowhere/c.pem");
   EXPECT_EQ(run_program("serve").status, 2);
   EXPECT_EQ(run_program("serve /nowhere.glb").status, 2);
+}
+
+TEST(ConnectCommand, GoesOnOnceItsServerIsBack) {
+  const test::TemporaryDirectory directory;
+  std::vector<std::string> pictures, own;
+  auto first = std::make_unique<RunningServer>();
+  ASSERT_GT(first->port(), 0) << first->said();
+  const std::string port = std::to_string(first->port());
+  const auto frame = [&](const std::string& name, int number) {
+    return directory.file(name + (number < 10 ? ".000" : ".00") + std::to_string(number) + ".png");
+  };
+  const auto connect = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"connect", first->host(), "--frames",
+                                          "20",      "-o",          directory.file(name + ".png"),
+                                          "--size",  "96x64"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return test::start_program(arguments);
+  };
+  const std::array<pid_t, 2> clients = {
+      connect("seen", {"--eye", "2.7,2.7,-5", "--target", "2.7,2.7,0"}),
+      connect("lit", {"--scene", "cornell-spot", "--quality", "draft"})};
+  for (const char* name : {"seen", "lit"}) {
+    while (!std::filesystem::exists(frame(name, 0))) usleep(10'000);
+  }
+  EXPECT_EQ(first->end(SIGKILL), -1);
+  std::vector<std::string> again = kSmall;
+  std::ranges::replace(again, std::string("0"), port);
+  const RunningServer second({}, again);
+  ASSERT_EQ(std::to_string(second.port()), port) << second.said();
+  for (const pid_t client : clients) {
+    int status = -1;
+    waitpid(client, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  EXPECT_TRUE(std::filesystem::exists(frame("seen", 19)));
+  EXPECT_TRUE(std::filesystem::exists(frame("lit", 19)));
 }
 
 TEST(ConnectCommand, TellsWhatIsWrong) {

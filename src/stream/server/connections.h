@@ -16,12 +16,14 @@
 
 namespace lambent::stream {
 
-/// The listener's interface to a WebSocket.
+/// The listener's interface to a connection.
 class Session {
  public:
   virtual ~Session() = default;
-  /// Sends the reason to the client, and closes.
+  /// Sends the reason to the client where it can be told, and closes.
   virtual void refuse(Refusal refusal) = 0;
+  /// Closes the connection at once if it has not asked for anything yet; returns whether it did.
+  virtual bool give_way() = 0;
   /// Checks deadlines, and whether the token is still valid.
   virtual void tick() = 0;
 };
@@ -43,7 +45,7 @@ struct ConnectionContext {
   std::chrono::steady_clock::time_point session_start = std::chrono::steady_clock::now();
   std::uint32_t session_clients = 0;  // number of clients so far
   std::size_t connections = 0;
-  std::vector<std::weak_ptr<Session>> sessions;
+  std::vector<std::weak_ptr<Session>> sessions;  // the oldest first
   boost::asio::io_context io{1};  // last: its connections must be destroyed before everything else
 
   /// Records a message of a client if a session is recorded; none: the client has left.

@@ -18,7 +18,7 @@ namespace lambent::stream {
 namespace {
 
 /// Reads the first request of a connection and answers it. Pending operations own the object.
-class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
+class HttpConnection : public Session, public std::enable_shared_from_this<HttpConnection> {
  public:
   using ErrorCode = boost::beast::error_code;
 
@@ -26,12 +26,23 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
       : context_(context), count_(context), stream_(std::move(stream)), buffer_(kMaxHeaderBytes) {}
 
   void start() {
+    context_.sessions.push_back(weak_from_this());
     stream_.expires_after(context_.settings.hello_timeout);
     stream_.async_handshake(boost::beast::role_type::server,
                             [self = shared_from_this()](ErrorCode error) {
                               if (!error) self->read();
                             });
   }
+
+  void refuse(Refusal /*refusal*/) override { give_way(); }
+
+  bool give_way() override {
+    if (!std::exchange(waits_, false)) return false;
+    stream_.close();
+    return true;
+  }
+
+  void tick() override {}
 
  private:
   // Largest request line with headers [bytes].
@@ -59,6 +70,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   void answer() {
     namespace http = boost::beast::http;
+    waits_ = false;
     const auto& request = parser_.get();
     const std::string_view host = header(http::field::host);
     if (!context_.hosts.may_be_asked_as(host)) {
@@ -117,7 +129,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   ByteStream stream_;
   boost::beast::flat_buffer buffer_;
   boost::beast::http::request_parser<boost::beast::http::empty_body> parser_;
-  std::string body_;  // body of an answer that does not refer to the server's data
+  bool waits_ = true;  // for the request
+  std::string body_;   // body of an answer that does not refer to the server's data
   boost::beast::http::response<boost::beast::http::span_body<const char>> answer_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <netinet/tcp.h>
 
+#include <algorithm>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/ssl/context.hpp>
@@ -160,7 +161,12 @@ class BeastListener : public Listener {
   void take(tcp::socket socket) {
     if (context_.connections >= context_.settings.max_connections) {
       context_.count_refused();
-      return;  // which closes the socket
+      // The oldest connection that is silent gives way
+      const bool has_room = std::ranges::any_of(context_.sessions, [](const auto& weak) {
+        const auto session = weak.lock();
+        return session && session->give_way();
+      });
+      if (!has_room) return;  // which closes the socket
     }
     ErrorCode ignored;
     socket.set_option(tcp::no_delay(true), ignored);
@@ -196,6 +202,18 @@ class BeastListener : public Listener {
 };
 
 }  // namespace
+
+Expected<void> Listener::check_files(const ListenSettings& settings) {
+  if (!settings.certificate.empty()) {
+    if (const auto tls = make_tls(settings); !tls) return tl::unexpected(tls.error());
+  }
+  if (!settings.tokens.empty()) {
+    if (const auto access = Access::open(settings.tokens); !access) {
+      return tl::unexpected(access.error());
+    }
+  }
+  return {};
+}
 
 Expected<std::unique_ptr<Listener>> Listener::open(const ListenSettings& settings, Hub& hub) {
   if (settings.certificate.empty() != settings.key.empty()) {

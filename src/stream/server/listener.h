@@ -26,8 +26,10 @@ struct ListenSettings {
   /// A .glb file that authorised clients get as /scene.glb; null: none.
   std::shared_ptr<const std::string> scene;
   std::string record;  ///< File to which the session is recorded (SessionWriter); empty: none.
-  std::size_t max_connections = 64;  ///< Clients and plain requests at a time.
-  double max_message_rate = 200.0;   ///< Messages of a client per second.
+  /// Clients and plain requests at a time. Where there are as many, those that have not asked for
+  /// anything give way to others, the oldest first.
+  std::size_t max_connections = 64;
+  double max_message_rate = 200.0;  ///< Messages of a client per second.
   /// Time for a connection to send its request and Hello.
   std::chrono::milliseconds hello_timeout{10'000};
   /// Time without any message; after half of it, a ping is sent.
@@ -41,6 +43,8 @@ struct ListenSettings {
 /// Serves from construction to destruction, on a thread of its own.
 class Listener {
  public:
+  /// Fails on certificates, keys and tokens that cannot be used, before anything is served.
+  static Expected<void> check_files(const ListenSettings& settings);
   /// Refers to the hub, which must outlive it. Fails on addresses where it cannot listen, on files
   /// that cannot be read or do not match, and without tokens on addresses other than loopback.
   static Expected<std::unique_ptr<Listener>> open(const ListenSettings& settings, Hub& hub);

@@ -67,6 +67,13 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket>
     pump();
   }
 
+  bool give_way() override {
+    if (link_ || farewell_ || closing_) return false;
+    closing_ = true;
+    socket_.next_layer().close();
+    return true;
+  }
+
   void tick() override {
     const Clock::time_point now = Clock::now();
     const bool stuck = (writing_since_ && now > *writing_since_ + context_.settings.write_timeout);
