@@ -36,8 +36,9 @@ struct LitPoint {
   glm::vec3 geometric_normal_ws;
   /// encode_albedo_shape() where the light will be reflected to the viewer by an albedo; else 0.
   uint albedo_shape = 0;
-  glm::vec3 to_viewer_ws{0.0f};  ///< Unit; read where there is a shape, and by lookups.
-  float viewer_distance = 0.0f;  ///< Length of the unoccluded segment towards the viewer [m].
+  glm::vec3 to_viewer_ws{0.0f};     ///< Unit; read where there is a shape, and by lookups.
+  float viewer_distance = 0.0f;     ///< Length of the unoccluded segment towards the viewer [m].
+  float mean_normal_length = 1.0f;  ///< See bumpy_cosine().
 };
 
 /// How a surface reflects light to a viewer.

@@ -5,7 +5,8 @@
 // and spot lights. The includer provides the types
 //   LitPointRef  a point with position_ws and, on its lit side, normal_ws and geometric_normal_ws,
 //                which are 0 for points in the air, lit from all around; and with albedo_shape
-//                where it will reflect by an albedo towards the viewer, else 0
+//                where it will reflect by an albedo towards the viewer, else 0; and with
+//                mean_normal_length, see bumpy_cosine()
 //   ReceiverRef  what light is drawn for: its member `point` is such a point
 //   DrawsRef     the lights to draw from
 // and
@@ -46,7 +47,8 @@ LAMBENT_FN vec3 unoccluded_irradiance(LitPointRef point, SeenShape shape, LightC
   if (cosine <= 0.0f || side <= 0.0f) return vec3(0.0f);
   float reflected =
       reflected_over_albedo(shape, point.normal_ws, point.to_viewer_ws, light.to_light);
-  return light.perpendicular_irradiance * (cosine * reflected);
+  return light.perpendicular_irradiance *
+         (bumpy_cosine(cosine, point.mean_normal_length) * reflected);
 }
 
 /// Radiance that a surface reflects of an unoccluded candidate to a viewer [W/(m^2 sr)]. `frame` is

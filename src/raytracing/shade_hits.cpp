@@ -54,7 +54,8 @@ LAMBENT_SHADING_KERNEL void store_surface(const Surface& surface, const glm::vec
                   surface.geometric_normal_ws,
                   encode_albedo_shape(surface.reflectance),
                   -direction,
-                  distance};
+                  distance,
+                  surface.reflectance.mean_normal_length};
   result.surface = shaded_surface(surface, direction, max_albedo, from_inside);
 }
 

@@ -24,36 +24,53 @@ LAMBENT_FN vec4 tangent_at(MeshRef mesh, TextureViewRef view, TrianglePointRef p
   return tangent_from_uvs(edge1, edge2, uvs.b - uvs.a, uvs.c - uvs.a);
 }
 
-/// A texel of a normal map. Where the footprint covers all of the map, it is the map's mean.
-LAMBENT_FN vec4 map_texel_at(SceneRef scene, MeshRef mesh, TextureViewRef view, TrianglePointRef p,
-                             ConeShare cone_share, bool mean_alone) {
-  if (!mean_alone) return precise_texture_at(scene, mesh, view, p, cone_share);
-  return fetch_texel(fetch_level(scene, view, level_count(scene, view) - 1), 0, 0);
+/// What a normal map holds at a point, and how much of it is a mean: 0 at full size, where vectors
+/// that are shorter than 1 are not means of several, 1 from the first MIP level on.
+struct MapTexel {
+  vec4 texel;
+  float averaged;
+};
+
+/// Where the footprint covers all of the map, it is the map's mean.
+LAMBENT_FN MapTexel map_texel_at(SceneRef scene, MeshRef mesh, TextureViewRef view,
+                                 TrianglePointRef p, ConeShare cone_share, bool mean_alone) {
+  MapTexel found;
+  if (mean_alone) {
+    found.texel = fetch_texel(fetch_level(scene, view, level_count(scene, view) - 1), 0, 0);
+    found.averaged = 1.0f;
+    return found;
+  }
+  TextureRead read = texture_read(scene, mesh, view, p, cone_share);
+  found.texel = precise_texel(scene, view, read);
+  found.averaged = clamp(read.level, 0.0f, 1.0f);
+  return found;
 }
 
-/// A normal in object space, of any length, bent by a normal map; the mean of the map's vectors
-/// over the footprint, in tangent space, see map_vector(); and how far most of them scatter.
+/// A normal in object space, of any length, bent by a normal map; the length of the mean of the
+/// map's normals over the footprint, 0 to 1; and how far most of them scatter.
 struct BentNormal {
   vec3 normal;
-  vec3 mean;
+  float mean_length;
   float spread;
 };
 
 LAMBENT_FN BentNormal bent_normal_at(SceneRef scene, MeshRef mesh, TextureViewRef view, float scale,
                                      TrianglePointRef p, vec3 edge1, vec3 edge2, vec3 normal,
                                      ConeShare cone_share) {
-  BentNormal bent = {normal, vec3(0.0f, 0.0f, 1.0f), 0.0f};
+  BentNormal bent = {normal, 1.0f, 0.0f};
   if (view.texture < 0) return bent;
   bool mean_alone = shows_mean_alone(scene, mesh, view, p, cone_share);
-  vec4 texel = map_texel_at(scene, mesh, view, p, cone_share, mean_alone);
-  bent.mean = map_vector(vec3(texel), scale);
-  bent.spread = 1.0f - texel.w;
+  MapTexel map = map_texel_at(scene, mesh, view, p, cone_share, mean_alone);
+  float length_of_mean = length(map_vector(vec3(map.texel), 1.0f));
+  bent.mean_length = mix(1.0f, scaled_mean_length(length_of_mean, scale), map.averaged);
+  bent.spread = 1.0f - map.texel.w;
   // Where the footprint averages over all bumps, the surface is flat
   if (mean_alone) return bent;
   vec4 tangent = tangent_at(mesh, view, p, edge1, edge2);
   bent.normal = normalize_or(normal, vec3(0.0f, 0.0f, 1.0f));
   vec3 t = orthogonal_tangent(bent.normal, vec3(tangent));
-  if (t != vec3(0.0f)) bent.normal = mapped_normal(bent.normal, t, tangent.w, bent.mean);
+  vec3 bump = map_vector(vec3(map.texel), scale);
+  if (t != vec3(0.0f)) bent.normal = mapped_normal(bent.normal, t, tangent.w, bump);
   return bent;
 }
 
@@ -256,6 +273,7 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
 
   Optics optics = bumpy_optics_at(scene, mesh, material, p, cone_share, bent.spread);
   surface.reflectance = optics.reflectance;
+  surface.reflectance.mean_normal_length = bent.mean_length;
   surface.emission = emission_at(scene, mesh, material, p, cone_share);
   if (has_clearcoat(surface.reflectance.layers)) {
     BentNormal coat =
@@ -271,7 +289,7 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
   surface.material = uint(mesh.material);
   surface.gi_share =
       receives_gi(instance)
-          ? horizon_share(length(bent.mean), dot(surface.normal_ws, surface.geometric_normal_ws))
+          ? horizon_share(bent.mean_length, dot(surface.normal_ws, surface.geometric_normal_ws))
           : 0.0f;
   if (surface.transmission.kind == kLeavesVolume) {
     // Rays that go on account for inner reflection; no light of the room arrives inside

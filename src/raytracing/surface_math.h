@@ -84,8 +84,8 @@ LAMBENT_FN vec3 orthogonal_tangent(vec3 normal, vec3 tangent) {
   return normalize_or(tangent - normal * dot(normal, tangent), vec3(0.0f));
 }
 
-/// The vector in a normal map's texel, in tangent space. A mean over many texels is shorter than 1:
-/// the more their normals scatter, the shorter.
+/// The vector in a normal map's texel, in tangent space, of any length. In MIPs it is a mean of
+/// unit normals: the more these scatter, the shorter.
 LAMBENT_FN vec3 map_vector(vec3 texel, float normal_scale) {
   vec3 n = texel * 2.0f - 1.0f;
   return vec3(n.x * normal_scale, n.y * normal_scale, n.z);
@@ -104,6 +104,20 @@ const float kGgxOverVariance = 1.3862944f;
 LAMBENT_FN float widened_alpha(float alpha, float spread) {
   if (spread == 0.0f) return alpha;
   return min(sqrt(alpha * alpha + kGgxOverVariance * spread * spread), max(alpha, 1.0f));
+}
+
+// Bounds the mean length of normals below, which is divided by. That of normals all over a
+// hemisphere is 0.5.
+const float kLeastMeanLength = 0.1f;
+
+/// Length of the mean of unit normals that a map scales, from the length of that of unscaled ones:
+/// scaling multiplies the tangents of the angles between normals and mean. At least
+/// kLeastMeanLength.
+LAMBENT_FN float scaled_mean_length(float unscaled, float normal_scale) {
+  float bounded = clamp(unscaled, kLeastMeanLength, 1.0f);
+  float squared = bounded * bounded;
+  float scaled = sqrt(squared / (squared + normal_scale * normal_scale * (1.0f - squared)));
+  return max(scaled, kLeastMeanLength);
 }
 
 /// The normal for a normal map's vector, in the space of the unit vectors normal and tangent.
@@ -162,7 +176,13 @@ LAMBENT_FN void place_clearcoat(LAMBENT_INOUT(SurfaceLayers) layers, vec3 normal
 /// pi (1 + dot(n, n_g)) / 2. It is linear in the normal n, so that the mean of many normals, with
 /// its length, stands for them: `length` is that of the mean, `cosine` is dot(n, n_g).
 LAMBENT_FN float horizon_share(float length, float cosine) {
-  return 0.5f + 0.5f * min(length, 1.0f) * cosine;
+  return 0.5f + 0.5f * length * cosine;
+}
+
+/// The length from which horizon_share() is this; 1 where nothing of the field's light is received.
+LAMBENT_FN float mean_length_of_share(float gi_share, float cosine) {
+  if (gi_share <= 0.0f || cosine < kLeastMeanLength) return 1.0f;
+  return clamp((2.0f * gi_share - 1.0f) / cosine, kLeastMeanLength, 1.0f);
 }
 
 // Lower bound of the share of the hemisphere about a normal that is above the surface, which bounds
@@ -208,7 +228,7 @@ LAMBENT_FN float weight_of_stopped(vec3 share) {
 
 /// An exactly Lambertian reflectance.
 LAMBENT_FN Reflectance lambert_reflectance(vec3 diffuse) {
-  Reflectance result = {diffuse, 1.0f, vec3(0.0f), 0.0f, no_layers()};
+  Reflectance result = {diffuse, 1.0f, vec3(0.0f), 0.0f, no_layers(), 1.0f};
   return result;
 }
 
@@ -218,9 +238,12 @@ LAMBENT_FN Reflectance coated_reflectance(vec3 base, float metallic, float rough
                                           float specular, vec3 specular_color, float ior) {
   float root_f0 = (ior - 1.0f) / (ior + 1.0f);
   vec3 dielectric_f0 = min(specular_color * (root_f0 * root_f0), vec3(1.0f)) * specular;
-  Reflectance result = {base * (1.0f - metallic), max(roughness * roughness, kMinGgxAlpha),
-                        mix(dielectric_f0, base, metallic), mix(specular, 1.0f, metallic),
-                        no_layers()};
+  Reflectance result = {base * (1.0f - metallic),
+                        max(roughness * roughness, kMinGgxAlpha),
+                        mix(dielectric_f0, base, metallic),
+                        mix(specular, 1.0f, metallic),
+                        no_layers(),
+                        1.0f};
   return result;
 }
 

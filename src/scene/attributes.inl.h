@@ -115,15 +115,19 @@ LAMBENT_FN vec4 texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view, Tr
   return sample_texture(scene, view, read.uv, read.level);
 }
 
-/// A texture of a mesh at a point, filtered with weights of full precision. Devices may filter with
-/// weights of 8 bits, and some with results of 8 bits. Textures on which ray directions depend need
-/// more: mirrors would show the steps.
+/// A texel, filtered with weights of full precision. Devices may filter with weights of 8 bits, and
+/// some with results of 8 bits. Textures on which ray directions depend need more: mirrors would
+/// show the steps.
+LAMBENT_FN vec4 precise_texel(SceneRef scene, TextureViewRef view, TextureRead read) {
+  if (read.nearest) return nearest_texel(scene, view, read.uv, int(read.level));
+  return blended_texel(scene, view, read.uv, read.level);
+}
+
+/// A texture of a mesh at a point, filtered by precise_texel(); white where the view is empty.
 LAMBENT_FN vec4 precise_texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view,
                                    TrianglePointRef p, ConeShare cone_share) {
   if (view.texture < 0) return vec4(1.0f);
-  TextureRead read = texture_read(scene, mesh, view, p, cone_share);
-  if (read.nearest) return nearest_texel(scene, view, read.uv, int(read.level));
-  return blended_texel(scene, view, read.uv, read.level);
+  return precise_texel(scene, view, texture_read(scene, mesh, view, p, cone_share));
 }
 
 /// Whether a footprint covers so much of a texture that the result is nearly the texture's mean;

@@ -8,6 +8,9 @@
 #include <cstdint>
 #include <numeric>
 #include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
 
 #include "scene/texture.h"
 #include "shared/color.h"
@@ -25,6 +28,13 @@ constexpr int kFewestNormals = 4;
 // Median of the squared distances of normally distributed points of a plane from their centre, over
 // the variance along each axis: 2 ln 2.
 constexpr float kSquaredMedian = 1.3862944f;
+
+// Distance of the points of Gauss-Legendre quadrature from the ends of an interval, over its
+// length: (1 - sqrt(1/3)) / 2.
+constexpr float kGaussPoint = 0.21132487f;
+
+// Shorter vectors have no direction, but that of rounding.
+constexpr float kShortestVector = 0.02f;
 
 // Alpha where normals do not scatter.
 constexpr std::uint8_t kNoSpread = 255;
@@ -91,6 +101,50 @@ float component(std::uint8_t byte) {
   return 2.0f * linear_byte_decoding()[byte] - 1.0f;
 }
 
+/// Stores a vector with the length 1, or, where it is too short for that, nothing.
+void store_unit(const glm::vec3& vector, std::uint8_t* texel) {
+  const float squared = glm::dot(vector, vector);
+  if (squared < kShortestVector * kShortestVector) return;
+  const float scale = 127.5f / std::sqrt(squared);
+  for (int c = 0; c < 3; ++c) {
+    // + 0.5 rounds
+    texel[c] = static_cast<std::uint8_t>(vector[c] * scale + (127.5f + 0.5f));
+  }
+}
+
+/// The normals that a normal map shows at full size, where its texels are interpolated and given
+/// the length 1: one for each texel, at the points of Gauss-Legendre quadrature between the texels
+/// of blocks of 2 x 2. Maps with noise from texel to texel scatter less than their texels do, and
+/// texels are often not of length 1. Vectors without a direction stay as they are.
+std::vector<std::uint8_t> shown_normals(const TextureLevel& level) {
+  std::vector<std::uint8_t> shown = level.rgba;
+  const auto texel = [&](int x, int y) {
+    return 4 * (static_cast<std::size_t>(y) * level.width + x);
+  };
+  const auto vector_at = [&](int x, int y) {
+    const std::uint8_t* p = &level.rgba[texel(x, y)];
+    return glm::vec3(component(p[0]), component(p[1]), component(p[2]));
+  };
+  const auto show = [&](int x, int y, const glm::vec3& near, const glm::vec3& far) {
+    store_unit(glm::mix(near, far, kGaussPoint), &shown[texel(x, y)]);
+  };
+  for (int y = 0; y < level.height; y += 2) {
+    const int below = std::min(y + 1, level.height - 1);
+    for (int x = 0; x < level.width; x += 2) {
+      const int beside = std::min(x + 1, level.width - 1);
+      const glm::vec3 a = vector_at(x, y), b = vector_at(beside, y), c = vector_at(x, below),
+                      d = vector_at(beside, below);
+      const glm::vec3 a_c = glm::mix(a, c, kGaussPoint), b_d = glm::mix(b, d, kGaussPoint),
+                      c_a = glm::mix(c, a, kGaussPoint), d_b = glm::mix(d, b, kGaussPoint);
+      show(x, y, a_c, b_d);
+      show(beside, y, b_d, a_c);
+      show(x, below, c_a, d_b);
+      show(beside, below, d_b, c_a);
+    }
+  }
+  return shown;
+}
+
 /// The alpha that stands for a spread.
 std::uint8_t alpha_of(float spread) {
   return static_cast<std::uint8_t>(std::lround(kNoSpread * (1.0f - std::min(spread, 1.0f))));
@@ -132,10 +186,13 @@ void build_normal_mips(Texture& texture) {
   assert(!texture.levels.empty() && !texture.srgb);
   TextureLevel& finest = texture.levels.front();
   for (std::size_t i = 3; i < finest.rgba.size(); i += 4) finest.rgba[i] = kNoSpread;
+  std::vector<std::uint8_t> given = shown_normals(finest);
+  given.swap(finest.rgba);
   build_mips(texture);
   for (std::size_t level = 1; level < texture.levels.size(); ++level) {
     measure_spread(texture.levels.front(), texture.levels[level]);
   }
+  texture.levels.front().rgba.swap(given);
 }
 
 }  // namespace lambent

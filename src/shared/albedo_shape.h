@@ -144,8 +144,12 @@ LAMBENT_FN Reflectance gray_of_shape(uint shape) {
   vec4 parts =
       vec4(uvec4(shape & 255u, (shape >> 8u) & 255u, (shape >> 16u) & 255u, shape >> 24u)) *
       (1.0f / kAlbedoShapeSteps);
-  Reflectance gray = {vec3(parts.x), max(parts.w * parts.w, kMinGgxAlpha), vec3(parts.y * parts.y),
-                      parts.z, no_layers()};
+  Reflectance gray = {vec3(parts.x),
+                      max(parts.w * parts.w, kMinGgxAlpha),
+                      vec3(parts.y * parts.y),
+                      parts.z,
+                      no_layers(),
+                      1.0f};
   return gray;
 }
 

@@ -5,6 +5,7 @@
 #ifndef LAMBENT_SHARED_BRDF_H
 #define LAMBENT_SHARED_BRDF_H
 
+#include "shared/bumps.h"
 #include "shared/layers.h"
 
 LAMBENT_BEGIN
@@ -18,6 +19,7 @@ struct Reflectance {
   /// Specular reflectance at grazing incidence; 0 with f0 = 0 is an exact Lambert surface.
   float f90;
   SurfaceLayers layers;
+  float mean_normal_length;  ///< See bumpy_cosine().
 };
 
 /// Schlick 1994: the share reflected by the coat at the angle between direction and half vector.
@@ -44,15 +46,16 @@ LAMBENT_FN ReflectedPair evaluate_under_layers(Reflectance surface, vec3 to_view
   float n_dot_v = to_viewer.z;
   float n_dot_l = to_light.z;
   if (n_dot_v <= 0.0f || n_dot_l <= 0.0f) return result;
+  float received = bumpy_cosine(n_dot_l, surface.mean_normal_length);
   if (surface.f90 <= 0.0f) {
-    result.diffuse = surface.diffuse * (kInvPi * n_dot_l);
+    result.diffuse = surface.diffuse * (kInvPi * received);
     return result;
   }
   vec3 h = normalize(to_viewer + to_light);
   vec3 f = fresnel(surface, dot(to_viewer, h));
   float d = ggx_distribution(h.z, surface.alpha);
   float g = 1.0f / (1.0f + ggx_lambda(n_dot_v, surface.alpha) + ggx_lambda(n_dot_l, surface.alpha));
-  result.diffuse = (vec3(1.0f) - f) * surface.diffuse * (kInvPi * n_dot_l);
+  result.diffuse = (vec3(1.0f) - f) * surface.diffuse * (kInvPi * received);
   result.specular = f * (d * g / (4.0f * n_dot_v));
   return result;
 }
@@ -120,8 +123,12 @@ LAMBENT_FN bool has_no_coat(Reflectance surface) {
 /// The reflectance of a surface's clearcoat alone, as a GGX coat in the frame of the clearcoat's
 /// normal.
 LAMBENT_FN Reflectance clearcoat_alone(SurfaceLayers layers) {
-  Reflectance coat = {vec3(0.0f), layers.clearcoat_alpha, vec3(kClearcoatF0 * layers.clearcoat),
-                      layers.clearcoat, no_layers()};
+  Reflectance coat = {vec3(0.0f),
+                      layers.clearcoat_alpha,
+                      vec3(kClearcoatF0 * layers.clearcoat),
+                      layers.clearcoat,
+                      no_layers(),
+                      1.0f};
   return coat;
 }
 

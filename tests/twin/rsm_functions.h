@@ -147,7 +147,7 @@ LAMBENT_FN void call_map(LAMBENT_INOUT(RsmResultCursor) to, RsmInputs a) {
   tell(to, perpendicular_area(a.projection, a.square, a.resolution, 1.0f + a.number));
   tell(to, project_to_map(a.projection, a.position_ws, a.resolution) / float(a.resolution));
   tell(to, texel_middle(a.n, a.n / 2, a.resolution + 16));
-  Reflectance reflectance = {a.texel.flux, 0.3f, vec3(0.04f), 1.0f, no_layers()};
+  Reflectance reflectance = {a.texel.flux, 0.3f, vec3(0.04f), 1.0f, no_layers(), 1.0f};
   tell_texel(to, lit_texel(a.position_ws, a.other_normal_ws, a.normal_ws, reflectance,
                            normalize(a.texel.position_ws - a.position_ws) * -1.0f, vec3(a.number),
                            a.texel.area));

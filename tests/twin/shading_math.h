@@ -102,9 +102,10 @@ LAMBENT_FN void evaluate_surfaces(LAMBENT_INOUT(RandomStream) random,
   n.orthogonal = orthogonal_tangent(normal, along);
   float handedness = next_uniform(random) - 0.5f;
   vec3 texel = random_vec3(random, 0.0f, 1.0f);
-  vec3 bump = map_vector(texel, 2.0f * next_uniform(random));
+  float normal_scale = 2.0f * next_uniform(random);
+  vec3 bump = map_vector(texel, normal_scale);
   n.mapped = mapped_normal(normal, n.orthogonal, handedness, bump) *
-             horizon_share(length(bump), dot(normal, along));
+             horizon_share(scaled_mean_length(length(bump), normal_scale), dot(normal, along));
   vec3 geometric = random_direction(random);
   bool along_winding = next_uniform(random) < 0.5f;
   bool from_front = next_uniform(random) < 0.5f;

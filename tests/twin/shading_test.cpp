@@ -242,7 +242,8 @@ TEST_F(ShadingTwin, ShadesSmallAndLargeBatchesInOneCommandBuffer) {
                     0u,
                     vec3(0.0f),
                     0.0f,
-                    0.0f};
+                    0.0f,
+                    1.0f};
     }
     points.push_back(vulkan::upload(device(), records, "points"));
     irradiance.emplace_back(device(), records.size() * sizeof(glm::vec3), vulkan::Memory::device,

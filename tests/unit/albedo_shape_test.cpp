@@ -25,15 +25,15 @@ vec3 direction_at(float cosine) {
 }
 
 Reflectance plastic(float roughness) {
-  return {vec3(0.8f, 0.4f, 0.2f), roughness * roughness, vec3(0.04f), 1.0f, no_layers()};
+  return {vec3(0.8f, 0.4f, 0.2f), roughness * roughness, vec3(0.04f), 1.0f, no_layers(), 1.0f};
 }
 
 /// What surfaces of all kinds are held to: base and coat, metal, and a faint coat on little.
 std::array<Reflectance, 3> coated_surfaces(float roughness) {
   const float alpha = roughness * roughness;
   return {plastic(roughness),
-          {vec3(0.0f), alpha, vec3(0.9f, 0.7f, 0.3f), 1.0f, no_layers()},
-          {vec3(0.02f), alpha, vec3(0.02f), 0.5f, no_layers()}};
+          {vec3(0.0f), alpha, vec3(0.9f, 0.7f, 0.3f), 1.0f, no_layers(), 1.0f},
+          {vec3(0.02f), alpha, vec3(0.02f), 0.5f, no_layers(), 1.0f}};
 }
 
 TEST(BaseAlbedo, IsTheIntegralOfTheBase) {
@@ -83,9 +83,9 @@ TEST(BoundedAlbedo, BoundsTheMeanAndNotGrazingDirections) {
   }
   EXPECT_NEAR(mean, kBound, 0.003);
 
-  const Reflectance matte = {vec3(1.0f), 1.0f, vec3(0.0f), 0.0f, no_layers()};
+  const Reflectance matte = {vec3(1.0f), 1.0f, vec3(0.0f), 0.0f, no_layers(), 1.0f};
   EXPECT_FLOAT_EQ(bounded_albedo(matte, 0.5f, kBound).x, kBound);
-  const Reflectance black = {vec3(0.0f), 1.0f, vec3(0.0f), 0.0f, no_layers()};
+  const Reflectance black = {vec3(0.0f), 1.0f, vec3(0.0f), 0.0f, no_layers(), 1.0f};
   EXPECT_EQ(bounded_albedo(black, 0.5f, kBound), vec3(0.0f));
 }
 
@@ -110,7 +110,7 @@ TEST(AlbedoTowards, SendsMoreOfGrazingLightBack) {
 }
 
 TEST(AlbedoTowards, IsOneWithoutACoat) {
-  const uint shape = encode_albedo_shape({vec3(0.7f), 1.0f, vec3(0.0f), 0.0f, no_layers()});
+  const uint shape = encode_albedo_shape({vec3(0.7f), 1.0f, vec3(0.0f), 0.0f, no_layers(), 1.0f});
   EXPECT_EQ(shape, 0u);
   EXPECT_EQ(albedo_towards(shape, 0.2f), 1.0f);
 }
@@ -139,7 +139,7 @@ TEST(ReflectedOverAlbedo, HasAMeanOfOneForEveryViewer) {
 }
 
 TEST(ReflectedOverAlbedo, IsTheReflectionFunctionOfRoughCoats) {
-  const Reflectance gray = {vec3(0.3f), 0.49f, vec3(0.04f), 1.0f, no_layers()};
+  const Reflectance gray = {vec3(0.3f), 0.49f, vec3(0.04f), 1.0f, no_layers(), 1.0f};
   const uint shape = encode_albedo_shape(gray);
   for (const float cosine : {0.2f, 0.7f}) {
     const vec3 to_viewer = direction_at(cosine);
@@ -156,7 +156,7 @@ TEST(ReflectedOverAlbedo, IsTheReflectionFunctionOfRoughCoats) {
 
 // So weak a coat has no light left in the eight bits of its shape.
 TEST(ReflectedOverAlbedo, IsFiniteForCoatsThatReflectAlmostNothing) {
-  const Reflectance faint = {vec3(0.5f), 0.04f, vec3(1e-6f), 1e-3f, no_layers()};
+  const Reflectance faint = {vec3(0.5f), 0.04f, vec3(1e-6f), 1e-3f, no_layers(), 1.0f};
   const uint shape = encode_albedo_shape(faint);
   ASSERT_NE(shape, 0u);
   EXPECT_NEAR(reflected(shape, direction_at(0.5f), direction_at(0.7f)), 1.0f, 0.01f);
@@ -174,7 +174,7 @@ TEST(SeenThroughGlass, LowersNoAlbedoThatIsHighTowardsTheViewerAlone) {
 }
 
 TEST(ReflectedOverAlbedo, WidensTheLobesOfMirrors) {
-  const Reflectance mirror = {vec3(0.0f), kMinGgxAlpha, vec3(1.0f), 1.0f, no_layers()};
+  const Reflectance mirror = {vec3(0.0f), kMinGgxAlpha, vec3(1.0f), 1.0f, no_layers(), 1.0f};
   const vec3 to_viewer = direction_at(0.7f);
   const vec3 mirrored(-to_viewer.x, 0.0f, to_viewer.z);
   const uint shape = encode_albedo_shape(mirror);

@@ -29,10 +29,12 @@ vec3 viewer(float degrees) {
 }
 
 Reflectance dielectric(float roughness, const vec3& albedo = vec3(0.6f)) {
-  return {albedo, std::max(roughness * roughness, kMinGgxAlpha), vec3(0.04f), 1.0f, no_layers()};
+  return {albedo, std::max(roughness * roughness, kMinGgxAlpha), vec3(0.04f), 1.0f, no_layers(),
+          1.0f};
 }
 Reflectance metal(float roughness) {
-  return {vec3(0.0f), std::max(roughness * roughness, kMinGgxAlpha), vec3(1.0f), 1.0f, no_layers()};
+  return {vec3(0.0f), std::max(roughness * roughness, kMinGgxAlpha), vec3(1.0f), 1.0f, no_layers(),
+          1.0f};
 }
 
 vec3 reflected_share(const Reflectance& surface, const vec3& to_viewer) {
@@ -64,7 +66,7 @@ TEST(Brdf, SmoothMetalReflectsEverything) {
 }
 
 TEST(Brdf, LambertReflectsExactlyItsAlbedo) {
-  const Reflectance surface = {vec3(0.2f, 0.5f, 0.8f), 1.0f, vec3(0.0f), 0.0f, no_layers()};
+  const Reflectance surface = {vec3(0.2f, 0.5f, 0.8f), 1.0f, vec3(0.0f), 0.0f, no_layers(), 1.0f};
   const vec3 share = reflected_share(surface, viewer(60.0f));
   EXPECT_NEAR(share.x, 0.2f, 1e-5f);
   EXPECT_NEAR(share.y, 0.5f, 1e-5f);

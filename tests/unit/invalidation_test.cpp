@@ -12,7 +12,9 @@
 #include "field/probes/volumes.h"
 #include "field/transport/distances.h"
 #include "raytracing/world_access.h"
+#include "scene/texture.h"
 #include "support/field_scenes.h"
+#include "support/hand_made.h"
 
 namespace lambent::invalidation_test {
 namespace {
@@ -50,6 +52,12 @@ class TracedRoom {
   InvalidationResult move_block() {
     const Bounds room = open_bounds(world);
     scene_.instances.back().world_from_object[3].x += 0.33f * (room.max.x - room.min.x);
+    return follow_edits();
+  }
+
+  /// Moves a light, and brings the surfels up to date.
+  InvalidationResult move_light() {
+    scene_.lights.at(0).position_ws.x += 0.1f;
     return follow_edits();
   }
 
@@ -129,6 +137,47 @@ TEST(InvalidationResult, SurfelsThatMirrorsShowAreThoseOfAFreshTrace) {
     }
   }
   EXPECT_GT(mirrored, 0);
+}
+
+TEST(InvalidationResult, LightOnBumpsIsThatOfAFreshTrace) {
+  // A bumpy panel in the room, and a lamp
+  Scene scene = scenes::make("cornell").value();
+  Material bumpy = test::lambert(glm::vec3(0.7f));
+  bumpy.normal_texture.texture = 0;
+  scene.materials.push_back(bumpy);
+  Texture texture;
+  texture.levels.resize(1);
+  texture.levels[0].width = texture.levels[0].height = 32;
+  for (int i = 0; i < 32 * 32; ++i) {
+    const std::uint8_t lean = (i + i / 32) / 4 % 2 == 0 ? 40 : 215;
+    texture.levels[0].rgba.insert(texture.levels[0].rgba.end(), {lean, 128, 220, 255});
+  }
+  build_normal_mips(texture);
+  scene.textures = {std::move(texture)};
+  const Bounds room_box = open_bounds(World(scene));
+  const vec3 size = room_box.max - room_box.min, center = 0.5f * (room_box.min + room_box.max);
+  test::add(scene, test::quad(center, {0.4f * size.x, 0.0f, 0.0f}, {0.0f, 0.4f * size.y, 0.0f},
+                              static_cast<int>(scene.materials.size()) - 1));
+  Light lamp;
+  lamp.position_ws = center + 0.3f * vec3(0.0f, size.y, size.z);
+  scene.lights = {lamp};
+
+  TracedRoom room(std::move(scene));
+  const std::vector<ProbeTrace> before = room.traces;
+  room.move_light();
+  const std::vector<ProbeTrace> fresh = room.trace();
+  int lit = 0;
+  for (const int probe : room.all) {
+    for (std::size_t i = 0; i < fresh[probe].surfels.size(); ++i) {
+      const Surfel &surfel = fresh[probe].surfels[i], &found = room.traces[probe].surfels[i];
+      if (surfel.gi_share == 0.0f || surfel.gi_share > 0.98f) continue;
+      if (surfel.light == before[probe].surfels[i].light) continue;
+      EXPECT_THAT(std::span(&found.light.x, 3),
+                  Pointwise(FloatNear(1e-3f * surfel.light.x), std::span(&surfel.light.x, 3)));
+      ++lit;
+    }
+  }
+  EXPECT_GT(lit, 10);
 }
 
 TEST(InvalidationResult, AWallThatBecomesAMirrorKeepsItsDistances) {

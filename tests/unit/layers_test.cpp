@@ -55,13 +55,13 @@ Reflectance layered(Reflectance surface, SurfaceLayers layers, float cosine) {
 }
 
 Reflectance white() {
-  return {vec3(1.0f), 1.0f, vec3(0.0f), 0.0f, no_layers()};
+  return {vec3(1.0f), 1.0f, vec3(0.0f), 0.0f, no_layers(), 1.0f};
 }
 Reflectance plastic(float roughness) {
-  return {vec3(0.8f, 0.4f, 0.2f), roughness * roughness, vec3(0.04f), 1.0f, no_layers()};
+  return {vec3(0.8f, 0.4f, 0.2f), roughness * roughness, vec3(0.04f), 1.0f, no_layers(), 1.0f};
 }
 Reflectance metal(float roughness) {
-  return {vec3(0.0f), roughness * roughness, vec3(1.0f), 1.0f, no_layers()};
+  return {vec3(0.0f), roughness * roughness, vec3(1.0f), 1.0f, no_layers(), 1.0f};
 }
 
 /// Share of light from a uniform sky that a surface reflects, by its own sampling.
@@ -230,7 +230,7 @@ TEST(Layers, AlbedoTowardsLightFollowsTheAlbedo) {
   const std::array<Reflectance, 4> surfaces = {
       layered(plastic(0.6f), clearcoat(0.05f), 1.0f), layered(metal(0.6f), clearcoat(0.3f), 1.0f),
       layered(white(), sheen(0.5f), 1.0f),
-      layered({vec3(0.02f), 1.0f, vec3(0.04f), 1.0f, no_layers()}, sheen(1.0f), 1.0f)};
+      layered({vec3(0.02f), 1.0f, vec3(0.04f), 1.0f, no_layers(), 1.0f}, sheen(1.0f), 1.0f)};
   for (const Reflectance& surface : surfaces) {
     const uint shape = encode_albedo_shape(surface);
     double mean = 0.0, expected_mean = 0.0;

@@ -68,7 +68,7 @@ LitPoint random_point(RandomStream& random) {
 
 /// The lobe of a shiny coat over a darker base, seen from somewhere above the surface.
 PickLobe shiny_lobe(const glm::vec3& normal_ws, RandomStream& random) {
-  const Reflectance surface{glm::vec3(0.2f), 0.05f, glm::vec3(0.04f), 1.0f, no_layers()};
+  const Reflectance surface{glm::vec3(0.2f), 0.05f, glm::vec3(0.04f), 1.0f, no_layers(), 1.0f};
   const Frame frame = make_frame(normal_ws);
   const glm::vec3 drawn = sample_cosine_hemisphere(next_uniform2(random));
   return pick_lobe(surface, frame, drawn);
@@ -199,7 +199,7 @@ TEST(LightTree, LooksAtGroupsAsAtSingleNodes) {
 /// Relative variance of a pixel's light by one pick, where all lights of a row of lamps are seen in
 /// a wet floor.
 double variance_of_highlights(const LightTree& tree, std::size_t first_light, bool by_lobe) {
-  const Reflectance floor{glm::vec3(0.05f), 0.06f, glm::vec3(0.04f), 1.0f, no_layers()};
+  const Reflectance floor{glm::vec3(0.05f), 0.06f, glm::vec3(0.04f), 1.0f, no_layers(), 1.0f};
   const glm::vec3 up(0.0f, 1.0f, 0.0f);
   const Frame frame = make_frame(up);
   double variance = 0.0;

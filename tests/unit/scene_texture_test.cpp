@@ -173,31 +173,33 @@ TEST(BuildNormalMips, TellOfBumpsThatRoundingHidesInTheMeanNormal) {
   texture.levels.resize(1);
   texture.levels[0].width = texture.levels[0].height = 16;
   for (int i = 0; i < 16 * 16; ++i) {
-    const std::uint8_t lean = (i + i / 16) % 2 == 0 ? 134 : 121;
+    const std::uint8_t lean = (i / 2 + i / 32) % 2 == 0 ? 134 : 121;
     texture.levels[0].rgba.insert(texture.levels[0].rgba.end(), {lean, 128, 255, 255});
   }
   build_normal_mips(texture);
-  for (std::size_t level = 1; level < texture.levels.size(); ++level) {
+  // The first level's texels have one normal each
+  for (std::size_t level = 2; level < texture.levels.size(); ++level) {
     // Along one axis alone: half of the variance along each
     EXPECT_NEAR(255 - texture.levels[level].rgba[3], 255 * 0.05 / std::sqrt(2.0), 3) << level;
   }
 }
 
 TEST(BuildNormalMips, HoldHowFarMostNormalsScatter) {
-  // Three of four columns face up, the last one leans; sizes need not be powers of two
+  // Three of four pairs of columns face up, the last one leans; sizes need not be powers of two
   Texture texture;
   texture.levels.resize(1);
-  texture.levels[0].width = 12;
+  texture.levels[0].width = 24;
   texture.levels[0].height = 9;
-  for (int i = 0; i < 12 * 9; ++i) {
-    const std::uint8_t lean = i % 4 == 3 ? 220 : 128;
-    texture.levels[0].rgba.insert(texture.levels[0].rgba.end(), {lean, 128, 215, 7});
+  for (int i = 0; i < 24 * 9; ++i) {
+    const bool leans = i % 8 >= 6;
+    const std::uint8_t lean = leans ? 220 : 128, up = leans ? 215 : 255;
+    texture.levels[0].rgba.insert(texture.levels[0].rgba.end(), {lean, 128, up, 7});
   }
   build_normal_mips(texture);
   for (std::size_t i = 3; i < texture.levels[0].rgba.size(); i += 4) {
     ASSERT_EQ(texture.levels[0].rgba[i], 255);
   }
-  ASSERT_EQ(texture.levels.size(), 4u);
+  ASSERT_EQ(texture.levels.size(), 5u);
   // The mean is off what most normals are by a quarter of (220 - 128) / 127.5, and counts by
   // 1 / sqrt(2)
   const std::uint8_t* coarsest = texture.levels.back().rgba.data();

@@ -173,9 +173,11 @@ void SurfelInvalidation::reshade_direct(int probe, ProbeTrace& trace) {
   for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
     const Surfel& surfel = trace.surfels[i];
     if (!surfel.reflects() || retraced_[i] != 0) continue;
-    const LitPoint point = {surfel.position_ws, decode_unit_vector(surfel.normal_ws),
-                            decode_unit_vector(surfel.geometric_normal_ws), surfel.albedo_shape,
-                            -trace.rays->directions[i]};
+    LitPoint point = {surfel.position_ws, decode_unit_vector(surfel.normal_ws),
+                      decode_unit_vector(surfel.geometric_normal_ws), surfel.albedo_shape,
+                      -trace.rays->directions[i]};
+    point.mean_normal_length =
+        mean_length_of_share(surfel.gi_share, dot(point.normal_ws, point.geometric_normal_ws));
     if (!may_change_light(world_, edits_, point)) continue;
     queries_.push_back({point, first_ray_index(probe) + i});
     places_.push_back(static_cast<int>(i));

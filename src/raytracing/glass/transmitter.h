@@ -52,7 +52,7 @@ LAMBENT_FN PickLobe pick_lobe(Transmitter at) {
     passes = at.through.tint * (1.0f - inner_reflection(at.to_viewer.z, at.through.eta));
   }
   if (onwards.z >= 0.0f) return no_pick_lobe();  // total internal reflection
-  Reflectance coat = {vec3(0.0f), at.through.alpha, passes, luminance(passes), no_layers()};
+  Reflectance coat = {vec3(0.0f), at.through.alpha, passes, luminance(passes), no_layers(), 1.0f};
   vec3 mirrored = vec3(-onwards.x, -onwards.y, onwards.z);
   return pick_lobe_of_coat(coat, 0.0f, to_world(at.frame, mirrored), -onwards.z);
 }

@@ -25,7 +25,7 @@ void main() {
   HitRecord hit = args.hits.at[i];
   LitPointRecord point =
       LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kNoDirectLight, 0u,
-                     -ray.direction_ws, 0.0f, uintBitsToFloat(kMissedDistanceBits));
+                     -ray.direction_ws, 0.0f, uintBitsToFloat(kMissedDistanceBits), 1.0f);
   if (missed(hit)) {
     args.points.at[i] = point;
     ShadedHitRecord sky =
@@ -43,6 +43,7 @@ void main() {
   point.geometric_normal_ws = surface.geometric_normal_ws;
   point.viewer_distance = hit.distance;
   point.albedo_shape = encode_albedo_shape(surface.reflectance);
+  point.mean_normal_length = surface.reflectance.mean_normal_length;
   bool from_inside = args.discounts_solid_sides != 0u && is_solid_side(hit);
   ShadedHitRecord shaded =
       shaded_surface(surface, ray.direction_ws, args.max_albedo, from_inside ? 1u : 0u);

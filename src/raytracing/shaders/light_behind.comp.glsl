@@ -60,6 +60,7 @@ void main() {
   point.normal_ws = -point.normal_ws;
   point.geometric_normal_ws = -point.geometric_normal_ws;
   point.albedo_shape = 0u;
+  point.mean_normal_length = 1.0f;
   ThroughReceiver receiver =
       ThroughReceiver(point, transmitter,
                       emitter_density_scale(args.tree_samples, surface.fluence));

@@ -19,7 +19,7 @@ void main() {
   HitRecord hit = args.hits.at[i];
   LitPointRecord point = LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws,
                                         kNoDirectLight, 0u, vec3(0.0f), 0.0f,
-                                        uintBitsToFloat(kMissedDistanceBits));
+                                        uintBitsToFloat(kMissedDistanceBits), 1.0f);
   PixelSurfaceRecord pixel = PixelSurfaceRecord(
       lambert_reflectance(vec3(0.0f)), vec3(0.0f), -ray.direction_ws, no_transmission(),
       RayCone(0.0f, 0.0f), kSurfaceMissed, 0.0f, CoatShares(0.0f, 0.0f), hit.sample_weight,
@@ -36,7 +36,8 @@ void main() {
     Surface surface = surface_at(args.scene, ray.direction_ws, hit, footprint);
     point = LitPointRecord(surface.position_ws, surface.normal_ws, surface.geometric_normal_ws,
                            args.first_index + i, 0u, vec3(0.0f), 0.0f,
-                           uintBitsToFloat(kMissedDistanceBits));
+                           uintBitsToFloat(kMissedDistanceBits),
+                           surface.reflectance.mean_normal_length);
     pixel.reflectance = surface.reflectance;
     pixel.emission = surface.emission;
     MaterialRecord material = fetch_material(args.scene, surface.material);
