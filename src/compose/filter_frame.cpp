@@ -13,14 +13,15 @@ namespace lambent {
 namespace {
 
 /// Filters the light of rare bright rays, without regard to differences of light, and adds it to
-/// the light that is filtered already.
-void add_excess(const DenoiseView& view, std::span<const vec3> excess,
+/// the light that is filtered already. `detail`: light whose differences from pixel to pixel it
+/// takes in proportion; empty: it is even.
+void add_excess(const DenoiseView& view, std::span<const vec3> excess, std::span<const vec3> detail,
                 const DenoiseSettings& settings, FilteredPixels& pixels, std::span<vec3> filtered) {
   const auto is_some = [](const vec3& light) { return light != vec3(0.0f); };
   if (std::none_of(excess.begin(), excess.end(), is_some)) return;
   pixels.filtered_excess.resize(excess.size());
   [[maybe_unused]] const Expected<void> done =
-      pixels.denoiser.filter(view, {excess, {}, {}}, settings, pixels.filtered_excess);
+      pixels.denoiser.filter(view, {excess, detail, {}}, settings, pixels.filtered_excess);
   assert(done);  // sizes are the view's
   parallel_chunks(excess.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) filtered[i] += pixels.filtered_excess[i];
@@ -38,7 +39,7 @@ bool filter_lobes(DenoiseView view, FilteredPixels& pixels, FilteredCoats& coats
   [[maybe_unused]] const Expected<void> done =
       pixels.denoiser.filter(view, {coats.light, {}, {}}, geometric_denoising(), coats.filtered);
   assert(done);  // sizes are the view's
-  add_excess(view, coats.excess, excess_denoising(), pixels, coats.filtered);
+  add_excess(view, coats.excess, {}, excess_denoising(), pixels, coats.filtered);
   return true;
 }
 
@@ -123,7 +124,8 @@ void filter_pixels(const FrameRequest& request, FilteredPixels& pixels) {
         pixels.denoiser.filter(view, {pixels.gathered, pixels.looked_up, pixels.gathered_variance},
                                {}, pixels.filtered_gathered);
     assert(done);  // sizes are the view's
-    add_excess(view, pixels.excess, geometric_denoising(), pixels, pixels.filtered_gathered);
+    add_excess(view, pixels.excess, pixels.filtered_gathered, geometric_denoising(), pixels,
+               pixels.filtered_gathered);
   }
   if (!pixels.emitters.empty()) {
     view.normals_ws = pixels.normals_ws;

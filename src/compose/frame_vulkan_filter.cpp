@@ -192,8 +192,8 @@ void FramePassesVulkan::denoise(float share) {
           to, view,
           {r.gathered, r.looked_up, variance(settings.gather_rays > 1, r.gathered_variance)}, {},
           r.filtered_gathered);
-      memory_.denoiser.record(to, view, {r.excess}, geometric_denoising(), r.filtered_gathered,
-                              true);
+      memory_.denoiser.record(to, view, {r.excess, r.filtered_gathered}, geometric_denoising(),
+                              r.filtered_gathered, true);
     });
   }
   if (lit) {

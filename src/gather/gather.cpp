@@ -50,35 +50,51 @@ class GatherChunk {
   /// Sums up each pixel's rays.
   void sum(GatheredLight& light) const {
     const std::span<const vec3> known = request_.known;
+    const auto count = static_cast<uint>(rays_per_pixel_);
+    std::vector<vec3> brought(rays_per_pixel_);
     for (std::size_t p = 0; p < pixels_.size(); ++p) {
-      const Surface& surface = request_.surfaces[pixels_[p]];
-      const vec3& geometric_normal_ws = surface.geometric_normal_ws;
-      const float above =
-          above_horizon(surface.gi_share, dot(surface.normal_ws, geometric_normal_ws));
+      float total = 0.0f, most = 0.0f;
+      bring(p, brought);
+      for (const vec3& each : brought) {
+        const float level = luminance(each);
+        total += level;
+        most = std::max(most, level);
+      }
+      const float level_known =
+          known.empty() ? 0.0f : known_level(known[pixels_[p]], total, most, count);
       vec3 sum(0.0f), excess(0.0f);
       RaySums guided = {0.0f, 0.0f}, others = {0.0f, 0.0f};
-      for (std::size_t r = p * rays_per_pixel_; r < (p + 1) * rays_per_pixel_; ++r) {
-        const vec3 brought =
-            weights_[r] * gathered_irradiance(above, geometric_normal_ws, rays_.rays[r].direction,
-                                              rays_.shaded[r].surface,
-                                              rays_.shaded[r].direct_irradiance, rays_.arrives[r]);
-        const vec3 kept = known.empty() ? brought : kept_of_ray(brought, known[pixels_[p]]);
-        const float level = luminance(kept);
+      for (uint ray = 0; ray < count; ++ray) {
+        const vec3 kept = known.empty() ? brought[ray] : kept_of_ray(brought[ray], level_known);
         sum += kept;
-        excess += brought - kept;
-        add_ray(r - p * rays_per_pixel_ < guided_[p] ? guided : others, level);
+        excess += brought[ray] - kept;
+        add_ray(ray < guided_[p] ? guided : others, luminance(kept));
       }
       const float share = 1.0f / static_cast<float>(rays_per_pixel_);
       light.irradiance[pixels_[p]] = share * sum;
       if (!known.empty()) light.excess[pixels_[p]] = share * excess;
       if (light.variance.empty()) continue;
       light.variance[pixels_[p]] =
-          share * share *
-          variance_of_rays(guided, others, guided_[p], static_cast<uint>(rays_per_pixel_));
+          share * share * variance_of_rays(guided, others, guided_[p], count);
     }
   }
 
  private:
+  /// What each of a pixel's rays contributes to its irradiance.
+  void bring(std::size_t p, std::span<vec3> brought) const {
+    const Surface& surface = request_.surfaces[pixels_[p]];
+    const vec3& geometric_normal_ws = surface.geometric_normal_ws;
+    const float above =
+        above_horizon(surface.gi_share, dot(surface.normal_ws, geometric_normal_ws));
+    for (std::size_t ray = 0; ray < brought.size(); ++ray) {
+      const std::size_t r = p * rays_per_pixel_ + ray;
+      brought[ray] =
+          weights_[r] * gathered_irradiance(above, geometric_normal_ws, rays_.rays[r].direction,
+                                            rays_.shaded[r].surface,
+                                            rays_.shaded[r].direct_irradiance, rays_.arrives[r]);
+    }
+  }
+
   void add_rays(std::size_t pixel) {
     pixels_.push_back(pixel);
     const Surface& surface = request_.surfaces[pixel];

@@ -35,7 +35,8 @@ struct GatheredLight {
   /// Variance of the irradiance's luminance; empty where a pixel has one ray, which has none to
   /// measure.
   std::vector<float> variance;
-  /// Irradiance that rays add beyond kBrightestRay times `known`; `irradiance` does not include it.
+  /// Irradiance that rays add beyond kBrightestRay times known_level(); `irradiance` does not
+  /// include it.
   /// Empty where `known` is.
   std::vector<glm::vec3> excess;
 };

@@ -10,15 +10,23 @@
 
 LAMBENT_BEGIN
 
-// A ray that contributes this many times the irradiance that the field has at its pixel is so rare
+// A ray that contributes this many times the irradiance that its pixel is known to have is so rare
 // that the filter could not tell such a pixel from its neighbours by its light. The part above is
 // stored as excess, and spread over the whole surface.
 const float kBrightestRay = 32.0f;
 
-/// The part of a ray's contribution that its pixel keeps; the rest is excess. `known`: the pixel's
-/// irradiance from a lookup of the field.
-LAMBENT_FN vec3 kept_of_ray(vec3 brought, vec3 known) {
-  float most = kBrightestRay * luminance(known);
+/// Luminance of the irradiance that a pixel is known to have: that from a lookup of the field or,
+/// where it is larger, the mean of the pixel's rays without the brightest. Where several rays bring
+/// far more than the lookup, they are not rare. `sum` and `most`: of their luminances.
+LAMBENT_FN float known_level(vec3 looked_up, float sum, float most, uint count) {
+  float level = luminance(looked_up);
+  return count > 1u ? max(level, (sum - most) / float(count - 1u)) : level;
+}
+
+/// The part of a ray's contribution that its pixel keeps; the rest is excess. `known`:
+/// known_level() of the pixel.
+LAMBENT_FN vec3 kept_of_ray(vec3 brought, float known) {
+  float most = kBrightestRay * known;
   float level = luminance(brought);
   return level > most ? brought * (most / level) : brought;
 }

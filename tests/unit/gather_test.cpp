@@ -69,7 +69,7 @@ TEST(Gather, WhatRareBrightRaysBringIsKeptApartAndNotLost) {
   FrameSettings frame;
   frame.width = frame.height = 40;
   const GBuffer gbuffer = test::seen_of(stage, frame);
-  GatherRequest request{gbuffer.surfaces, gbuffer.hit, frame.width, 0, 8};
+  GatherRequest request{gbuffer.surfaces, gbuffer.hit, frame.width, 0, 1};
   GatheredLight whole, apart;
   gather_irradiance(stage.world, field, request, whole);
   EXPECT_TRUE(whole.excess.empty());
@@ -86,6 +86,13 @@ TEST(Gather, WhatRareBrightRaysBringIsKeptApartAndNotLost) {
   }
   EXPECT_GT(luminance(excess), 0.1f * luminance(all));
   EXPECT_NEAR(luminance(kept + excess), luminance(all), 1e-4f * luminance(all));
+}
+
+TEST(Gather, WhatSeveralOfAPixelsRaysBringIsNotRare) {
+  EXPECT_EQ(known_level(vec3(2.0f), 100.0f, 90.0f, 1), luminance(vec3(2.0f)));
+  EXPECT_EQ(known_level(vec3(2.0f), 100.0f, 90.0f, 11), luminance(vec3(2.0f)));
+  EXPECT_EQ(known_level(vec3(0.5f), 100.0f, 90.0f, 11), 1.0f);
+  EXPECT_EQ(known_level(vec3(0.0f), 180.0f, 90.0f, 2), 90.0f);
 }
 
 TEST(Gather, SecondaryGathersEndWithinASpacing) {

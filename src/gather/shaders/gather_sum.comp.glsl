@@ -13,6 +13,15 @@ layout(push_constant, scalar) uniform Push {
   GatherSumArguments args;
 };
 
+/// What a ray of a pixel contributes to its irradiance; 0 where there is no ray.
+vec3 brought_by(uint ray, float above, vec3 geometric_normal_ws) {
+  RayRecord traced = args.rays.at[ray];
+  if (traced.mask == 0u) return vec3(0.0f);
+  return args.weights.at[ray] * gathered_irradiance(above, geometric_normal_ws, traced.direction_ws,
+                                                    args.shaded.at[ray], args.direct.at[ray],
+                                                    args.field.at[ray]);
+}
+
 void main() {
   uint k = gl_GlobalInvocationID.x;
   if (k >= args.count) return;
@@ -24,18 +33,23 @@ void main() {
   float share = 1.0f / float(args.rays_per_pixel);
   vec3 sum = vec3(0.0f);
   vec3 excess = vec3(0.0f);
-  vec3 known = args.keeps_excess != 0u ? args.known.at[i] : vec3(0.0f);
+  float known = 0.0f;
+  if (args.keeps_excess != 0u) {
+    float total = 0.0f;
+    float most = 0.0f;
+    for (uint r = 0u; r < args.rays_per_pixel; ++r) {
+      float level = luminance(
+          brought_by(k * args.rays_per_pixel + r, above, point.geometric_normal_ws));
+      total += level;
+      most = max(most, level);
+    }
+    known = known_level(args.known.at[i], total, most, args.rays_per_pixel);
+  }
   RaySums guided = RaySums(0.0f, 0.0f);
   RaySums others = RaySums(0.0f, 0.0f);
   uint guided_count = args.guided.at[k];
   for (uint r = 0u; r < args.rays_per_pixel; ++r) {
-    uint at = k * args.rays_per_pixel + r;
-    RayRecord ray = args.rays.at[at];
-    if (ray.mask == 0u) continue;
-    vec3 brought =
-        args.weights.at[at] *
-        gathered_irradiance(above, point.geometric_normal_ws, ray.direction_ws,
-                            args.shaded.at[at], args.direct.at[at], args.field.at[at]);
+    vec3 brought = brought_by(k * args.rays_per_pixel + r, above, point.geometric_normal_ws);
     vec3 kept = args.keeps_excess != 0u ? kept_of_ray(brought, known) : brought;
     float level = luminance(kept);
     sum += kept;
