@@ -44,10 +44,13 @@ bool is_room(const World& world, const Subject& subject, const SpaceSurvey& surv
       point_of_ray.push_back(p);
     }
   }
-  const std::vector<std::uint8_t> stopped = trace_occlusion(world, rays);
+  // A backdrop, such as a sky or the room around a small thing, hides nothing of the subject
+  std::vector<bool> hides(world.scene().instances.size(), false);
+  for (const std::uint32_t instance : subject.instances) hides[instance] = true;
+  const std::vector<Hit> hits = trace(world, rays);
   std::vector<char> shown(points.size(), 0);
   for (std::size_t r = 0; r < rays.size(); ++r) {
-    if (stopped[r] == 0) shown[point_of_ray[r]] = 1;
+    if (hits[r].missed() || !hides[hits[r].instance]) shown[point_of_ray[r]] = 1;
   }
   const auto count = static_cast<float>(std::count(shown.begin(), shown.end(), 1));
   const float shown_share = count / static_cast<float>(points.size());

@@ -24,8 +24,6 @@ constexpr int kEmitterSamples = 16, kBounceSamples = 4;
 // Points are lit where they receive at least this share of the median of those that receive any
 // light: others are dark in comparison.
 constexpr float kLitShare = 1.0f / 32.0f;
-// The sky is visible through glass that transmits at least this share of its light.
-constexpr float kClear = 0.1f;
 // Number of directions around the camera.
 constexpr int kSphereRays = 64;
 // Seed of all random numbers in this file.
@@ -43,7 +41,7 @@ float largest(const glm::vec3& v) {
 struct PointLight {
   float irradiance = 0.0f;         ///< From emitters, directly and after one bounce.
   float brightest_emitter = 0.0f;  ///< Largest radiance of those emitters [W/(m^2 sr)].
-  int escaped = 0;                 ///< Number of rays that left the scene.
+  int escaped = 0;                 ///< Number of rays that left the scene, through glass or not.
 };
 
 /// Irradiance from emissive surfaces, estimated from `samples` samples of them.
@@ -88,7 +86,7 @@ PointLight light_at(const World& world, const LitPoint& point, RandomStream& ran
         sample_cosine_about(point.geometric_normal_ws, next_uniform2(random));
     const Ray ray{offset_ray_origin(point.position_ws, point.geometric_normal_ws), 0.0f, direction};
     const Hit hit = tracer_of(world).closest_hit(ray);
-    if (hit.missed()) {
+    if (hit.missed() || shows_sky_through_glass(world, ray)) {
       ++light.escaped;
       continue;
     }

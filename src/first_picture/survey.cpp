@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "raytracing/trace_rays.h"
+#include "raytracing/world_access.h"
 #include "shared/random.h"
 #include "shared/rays.h"
 #include "shared/sampling.h"
@@ -131,6 +132,13 @@ std::vector<SurfaceSample> sample_surfaces(const Scene& scene,
   return points;
 }
 
+bool shows_sky_through_glass(const World& world, const Ray& ray) {
+  if (!tracer_of(world).has_glass()) return false;
+  glm::vec3 share;
+  tracer_of(world).transmittances({&ray, 1}, {&share, 1});
+  return std::max({share.r, share.g, share.b}) >= kClear;
+}
+
 SpaceSurvey survey_space(const World& world, const Bounds& bounds) {
   // Trace rays around, up and down from random places
   constexpr int kRays = kWaysAround + 2;
@@ -171,8 +179,10 @@ SpaceSurvey survey_space(const World& world, const Bounds& bounds) {
     const auto one_sided = static_cast<float>(met - two_sided);
     if (static_cast<float>(fronts) < kMinFrontShare * one_sided) continue;
     const glm::vec3& place = rays[static_cast<std::size_t>(i) * kRays].origin;
+    const Ray& upwards = rays[static_cast<std::size_t>(i) * kRays + kWaysAround + 1];
     const OpenPlace open{place, place.y - down.distance,
-                         up.missed() ? bounds.max.y : place.y + up.distance, up.missed()};
+                         up.missed() ? bounds.max.y : place.y + up.distance, up.missed(),
+                         up.missed() || shows_sky_through_glass(world, upwards)};
     survey.sheltered.push_back(open);
     if (closed < kMinClosedWays) continue;
     survey.enclosed.push_back(open);

@@ -28,6 +28,12 @@ std::vector<SurfaceSample> sample_surfaces(const Scene& scene,
 /// Rays in `count` directions that cover the sphere evenly, `reach` long [m].
 std::vector<Ray> rays_around(const glm::vec3& place_ws, int count, float reach = kInfiniteDistance);
 
+// The sky is visible through glass that transmits at least this share of its light.
+inline constexpr float kClear = 0.1f;
+
+/// Whether a ray that hits something leaves the scene through clear glass.
+bool shows_sky_through_glass(const World& world, const Ray& ray);
+
 /// Whether a hit shows the back of a surface. Two-sided surfaces have no back, whatever their
 /// winding.
 bool shows_back(const Scene& scene, const Hit& hit);
@@ -38,6 +44,7 @@ struct OpenPlace {
   float floor = 0.0f;           ///< Height of the surface below [m].
   float ceiling = 0.0f;         ///< Height of the surface above, or else of the bounds' top [m].
   bool open_above = false;      ///< There is no surface above.
+  bool under_sky = false;       ///< There is none, or but glass.
 };
 
 /// Random places in a box, classified.

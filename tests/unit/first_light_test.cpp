@@ -121,6 +121,27 @@ TEST(FirstLight, IsASkyWhereTheSunShinesIntoRooms) {
   EXPECT_EQ(choose_first_light(World(room), to_wall), FirstLight::scene);
 }
 
+TEST(FirstLight, IsTheSunsUnderSkylightsWithAndWithoutPanes) {
+  // A hall with a skylight of 3 x 3 m in its roof
+  Scene hall = scene_of(
+      {box_mesh({-5, -0.1f, -5}, {5, 0, 5}), box_mesh({-5, 0, -5}, {-4.9f, 4, 5}),
+       box_mesh({4.9f, 0, -5}, {5, 4, 5}), box_mesh({-5, 0, -5}, {5, 4, -4.9f}),
+       box_mesh({-5, 0, 4.9f}, {5, 4, 5}), box_mesh({-5, 4, -5}, {5, 4.1f, -1.5f}),
+       box_mesh({-5, 4, 1.5f}, {5, 4.1f, 5}), box_mesh({-5, 4, -1.5f}, {-1.5f, 4.1f, 1.5f}),
+       box_mesh({1.5f, 4, -1.5f}, {5, 4.1f, 1.5f})});
+  const Camera camera = look_at({4, 1.6f, 4}, {-2, 1.0f, -2}, 1.0f);
+  EXPECT_EQ(choose_first_light(World(hall), camera), FirstLight::sun);
+  test::add(hall, test::quad({-1.5f, 4.05f, -1.5f}, {3, 0, 0}, {0, 0, 3}, 1));
+  Material pane;
+  pane.metallic = 0.0f;
+  pane.roughness = 0.0f;
+  pane.transmission = 1.0f;
+  hall.materials.push_back(pane);
+  EXPECT_EQ(choose_first_light(World(hall), camera), FirstLight::sun);
+  hall.materials.back().transmission = 0.0f;
+  EXPECT_EQ(choose_first_light(World(hall), camera), FirstLight::lamps);
+}
+
 TEST(FirstLight, IsLampsInClosedRooms) {
   EXPECT_EQ(chosen(unlit("two-rooms")), FirstLight::lamps);
 }

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// First pictures of small things in the rooms around them.
+#include <gtest/gtest.h>
+
+#include "lambent/first_picture.h"
+#include "raytracing/camera_rays.h"
+#include "raytracing/trace_rays.h"
+#include "support/box_scenes.h"
+#include "support/hand_made.h"
+
+namespace lambent::small_subject_test {
+namespace {
+
+TEST(FirstView, ShowsASmallThingInTheRoomThatDwarfsIt) {
+  // A board with its pieces in the middle of a closed room
+  Scene scene;
+  scene.materials = {test::lambert(glm::vec3(0.6f))};
+  test::add(scene, test::box_mesh({-4, 0, -4}, {4, 3, 4}, true));
+  test::add(scene, test::box_mesh({-0.23f, 0.73f, -0.23f}, {0.23f, 0.75f, 0.23f}));
+  for (int i = 0; i < 16; ++i) {
+    const glm::vec3 at(-0.2f + 0.1f * static_cast<float>(i % 4), 0.75f,
+                       -0.2f + 0.1f * static_cast<float>(i / 4));
+    test::add(scene, test::box_mesh(at, at + glm::vec3(0.03f, 0.08f, 0.03f)));
+  }
+  const World world(scene);
+  const FirstView view = first_view(world, {}).value();
+  EXPECT_FALSE(view.inside);
+  const Ray middle = camera_ray(view.camera, 64, 36, 32.0f, 18.0f);
+  const Hit hit = trace(world, {&middle, 1}).front();
+  ASSERT_FALSE(hit.missed());
+  EXPECT_NE(hit.instance, 0u);
+  EXPECT_LT(hit.distance, 2.0f);
+}
+
+}  // namespace
+}  // namespace lambent::small_subject_test
