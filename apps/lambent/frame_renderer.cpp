@@ -46,6 +46,9 @@ constexpr int kSeenWidth = 48, kMaxSeenHeight = 96;
 constexpr int kLargePreviewSide = 512, kPreviewSide = 192;
 // Paths per pixel of such a preview.
 constexpr int kPreviewSamples = 16;
+// Times that the first frame of a sequence is rendered, so that it is as smooth as the later ones,
+// which average frames before them: about as many as these remember.
+constexpr int kFirstRenders = 8;
 
 const std::map<std::string, ProbeAspect> kProbeAspects = {{"irradiance", ProbeAspect::irradiance},
                                                           {"distance", ProbeAspect::distance},
@@ -218,8 +221,12 @@ Expected<void> FrameRenderer::paint(const Camera& camera, Json& stats) {
   // Frames that are averaged must have different noise. With averaged_frames, the renderer itself
   // varies the seed
   const bool averages = settings.averaged_frames > 1;
-  if (settings.temporal_antialiasing && !averages) settings.seed += painted_++;
-  if (const auto done = render(camera, settings, progress_); !done) return done;
+  const int renders = settings.temporal_antialiasing && painted_ == 0 ? kFirstRenders : 1;
+  for (int i = 0; i < renders; ++i) {
+    const std::uint32_t painted = painted_++;
+    if (settings.temporal_antialiasing && !averages) settings.seed = options_.seed + painted;
+    if (const auto done = render(camera, settings, progress_); !done) return done;
+  }
   book(frame_, stats);
   if (!options_.show_probes.empty()) {
     const ProbeViewSettings view{.aspect = kProbeAspects.at(options_.show_probes)};

@@ -15,6 +15,7 @@
 #include <string>
 #include <thread>
 
+#include "core/image/metrics.h"
 #include "lambent/image.h"
 #include "support/program.h"
 #include "support/temporary_directory.h"
@@ -207,6 +208,19 @@ INSTANTIATE_TEST_SUITE_P(
         BadUse{"verify_of_a_sequence", "cornell --frames 2 --verify 4", "--verify"},
         BadUse{"updates_without_field", "cornell --frames 2 --frame-updates 2", "--frame-updates"}),
     [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST_F(RenderSequence, BeginsAsSmoothAsItGoesOn) {
+  const ProgramResult result =
+      run_program("render cornell --frames 16" + kQuick + "-o " + directory.file("a.exr"));
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const auto frame = [&](const std::string& number) {
+    return read_image(directory.file("a." + number + ".exr")).value();
+  };
+  const LayeredImage first = frame("0000"), last = frame("0015");
+  const Metrics metrics = compare_images(*first.find(""), *last.find(""), {}).value();
+  // Measured: 2.1, most of it at the edges of the lamp; 8.5 where the first frame is rendered once
+  EXPECT_LT(metrics.relative_rmse, 4.0);
+}
 
 TEST_F(RenderSequence, IsAntialiasedOverTimeUnlessThatIsLeftOut) {
   const auto rendered = [&](const std::string& options, const std::string& name) {
