@@ -150,7 +150,7 @@ Expected<void> receive_frames(const ConnectOptions& options,
     frames.written.push_back(path);
     frames.costs.add(*picture);
     frames.size = picture->size;
-    session.bore_fruit();
+    session.note_picture();
   }
   return {};
 }
@@ -164,8 +164,10 @@ Expected<void> receive_pictures(const ConnectOptions& options,
   for (;;) {
     const auto done = receive_frames(options, camera, guard, session, frames);
     if (done) break;
-    if (!session.is_lost()) return done;
-    if (const auto back = session.join_again(done.error(), guard); !back) return back;
+    if (!session.can_join_again()) return done;
+    const auto back = session.join_again(done.error(), guard);
+    if (!back && guard.interrupted()) break;
+    if (!back) return back;
   }
   if (frames.written.empty()) return fail("", "", "was interrupted", Error::Kind::failed);
   tell_written(frames.written,
@@ -266,7 +268,9 @@ void add_connect(CLI::App& app, Run& run) {
       ->add_option("--authority", o->connect.authority,
                    "Whom to trust besides the system's authorities, PEM")
       ->type_name("FILE");
-  command->add_option("--timeout", o->timeout_s, "Wait so long for each answer [s]")
+  command
+      ->add_option("--timeout", o->timeout_s,
+                   "Wait so long for each answer, and for a server that was lost [s]")
       ->check(number(0.1, 3600.0))
       ->capture_default_str()
       ->type_name("S");

@@ -59,8 +59,10 @@ RenderOptions render_options(const ConnectOptions& options) {
 /// Pictures of the options' scene in the light of a server.
 class LitPictures {
  public:
-  LitPictures(const ConnectOptions& options, const std::optional<stream::CameraInput>& camera)
+  LitPictures(const ConnectOptions& options, const glm::ivec2& size,
+              const std::optional<stream::CameraInput>& camera)
       : options_(options),
+        size_(size),
         camera_(camera),
         render_(render_options(options)),
         stops_(*parse_exposure(options.exposure)) {}
@@ -91,15 +93,14 @@ class LitPictures {
       if (!renderer) renderer.emplace(world, IndirectSources{lit.field()});
       const Camera from = stream::camera_of(camera_.value_or(session.welcome().camera));
       if (const auto done = write_next(from, world, *renderer); !done) return done;
-      session.bore_fruit();
+      session.note_picture();
     }
     return {};
   }
 
   Expected<void> tell() const {
     if (written_.empty()) return fail("", "", "was interrupted", Error::Kind::failed);
-    const auto size = *parse_size("--size", options_.size);
-    tell_written(written_, pixels_text(size.x, size.y), stops_ ? exposure_text(*stops_) : "");
+    tell_written(written_, pixels_text(size_.x, size_.y), stops_ ? exposure_text(*stops_) : "");
     return {};
   }
 
@@ -119,8 +120,7 @@ class LitPictures {
 
   /// Renders and writes one picture.
   Expected<void> write_next(const Camera& from, const World& world, Renderer& renderer) {
-    const auto size = *parse_size("--size", options_.size);
-    FrameSettings frame = frame_settings(render_, size);
+    FrameSettings frame = frame_settings(render_, size_);
     if (!stops_ && shows_unlit(world.scene())) {
       // First find the exposure without unlit surfaces; these then show their colours at that
       // exposure
@@ -133,7 +133,7 @@ class LitPictures {
     }
     if (const auto done = renderer.render(from, frame, picture_); !done) return done;
     const std::string path = name_of_frame(options_, written_.size());
-    PictureFile file(render_, path, size, stops_);
+    PictureFile file(render_, path, size_, stops_);
     if (const auto done = file.write(picture_.image); !done) return done;
     if (const auto done = file.finish(); !done) return done;
     written_.push_back(path);
@@ -141,6 +141,7 @@ class LitPictures {
   }
 
   const ConnectOptions& options_;
+  const glm::ivec2 size_;
   const std::optional<stream::CameraInput>& camera_;
   const RenderOptions render_;
   std::optional<float> stops_;
@@ -152,17 +153,19 @@ class LitPictures {
 
 Expected<void> render_by_stream(const ConnectOptions& options, ServerSession& session,
                                 const std::optional<stream::CameraInput>& camera) {
-  if (const auto size = parse_size("--size", options.size); !size) {
-    return tl::unexpected(size.error());
-  }
-  LitPictures pictures(options, camera);
+  const auto size = parse_size("--size", options.size);
+  if (!size) return tl::unexpected(size.error());
+  LitPictures pictures(options, *size, camera);
   const InterruptGuard guard;
   for (;;) {
     const auto done = pictures.write(session, guard);
-    if (done) return pictures.tell();
-    if (!session.is_lost()) return done;
-    if (const auto back = session.join_again(done.error(), guard); !back) return back;
+    if (done) break;
+    if (!session.can_join_again()) return done;
+    const auto back = session.join_again(done.error(), guard);
+    if (!back && guard.interrupted()) break;
+    if (!back) return back;
   }
+  return pictures.tell();
 }
 
 }  // namespace lambent::cli

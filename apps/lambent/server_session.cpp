@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lambent/server_session.h"
 
-#include <algorithm>
 #include <thread>
 
 #include "lambent/console.h"
@@ -10,8 +9,8 @@
 namespace lambent::cli {
 namespace {
 
-// Time between attempts to join, and the longest that one of them may take.
-constexpr std::chrono::milliseconds kRetry{250}, kAttempt{1'000};
+// Time between attempts to join.
+constexpr std::chrono::milliseconds kRetry{250};
 
 }  // namespace
 
@@ -24,34 +23,37 @@ Expected<ServerSession> ServerSession::join(const stream::ConnectSettings& setti
 
 Expected<void> ServerSession::send(const stream::Message& message) {
   const auto sent = joined_.client->send(message);
-  lost_ = lost_ || !sent;
+  if (!sent) lost_ = true;
   return sent;
 }
 
 Expected<std::optional<stream::Message>> ServerSession::receive(std::chrono::milliseconds timeout) {
   auto message = joined_.client->receive(timeout);
   if (!message) {
-    lost_ = true;
-    if (!said_.empty()) message.error().cause += "; it said: " + printable(said_);
+    // Messages that are not of the protocol are bad input, and leave the connection as it is
+    if (message.error().kind == Error::Kind::failed) lost_ = true;
+    if (refusal_) message.error().cause += "; it said: " + printable(refusal_->text);
     return message;
   }
   if (!*message) return message;
-  if (const auto* refusal = std::get_if<stream::Refusal>(&**message)) said_ = refusal->text;
+  if (const auto* refusal = std::get_if<stream::Refusal>(&**message)) refusal_ = *refusal;
   return message;
 }
 
+bool ServerSession::can_join_again() const {
+  return lost_ && brought_picture_ &&
+         (!refusal_ || refusal_->code == stream::Refusal::Code::shutting_down);
+}
+
 Expected<void> ServerSession::join_again(const Error& why, const InterruptGuard& guard) {
-  if (!std::exchange(fruitful_, false)) return tl::unexpected(why);
-  warn("the server has gone, and is looked for: " + why.message());
-  stream::ConnectSettings attempt = settings_;
-  attempt.timeout = std::min(attempt.timeout, kAttempt);
+  warn("the connection to the server was lost, and is tried again: " + why.message());
   const auto end = std::chrono::steady_clock::now() + settings_.timeout;
   while (!guard.interrupted() && std::chrono::steady_clock::now() < end) {
-    auto joined = stream::join(attempt, hello_);
+    auto joined = stream::join(settings_, hello_);
     if (joined) {
       joined_ = std::move(*joined);
-      lost_ = false;
-      said_.clear();
+      lost_ = brought_picture_ = false;
+      refusal_.reset();
       tell("the server is back");
       return {};
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A connection to a server of light and pictures that is made again where it ends.
+// A connection to a server of light and pictures, which can be made again where it is lost.
 #pragma once
 
 #include <chrono>
@@ -24,18 +24,20 @@ class ServerSession {
   /// How long an answer may take.
   std::chrono::milliseconds timeout() const { return settings_.timeout; }
 
-  /// See stream::Client. A failure means that the connection is lost.
+  /// See stream::Client.
   Expected<void> send(const stream::Message& message);
-  /// The next message within a time; none if none arrives in time. A failure means that the
-  /// connection is lost; its cause includes what the server said last.
+  /// The next message within a time; none if none arrives in time. The cause of a failure includes
+  /// what the server said last.
   Expected<std::optional<stream::Message>> receive(std::chrono::milliseconds timeout);
-  /// Says that the connection has brought what it was made for.
-  void bore_fruit() { fruitful_ = true; }
+  /// Notes that the present connection has led to a picture.
+  void note_picture() { brought_picture_ = true; }
 
-  bool is_lost() const { return lost_; }
-  /// Joins the server again, within timeout(), once the connection was lost because of `why`. Fails
-  /// with that where the connection bore no fruit, where nobody answers in time, and at an
-  /// interrupt; or with the server's refusal.
+  /// Whether the connection was lost, and it is worth to join again: it has led to a picture, and
+  /// the server did not end it but to shut down.
+  bool can_join_again() const;
+  /// Joins the server again, after the connection was lost because of `why`. Fails with that where
+  /// the server does not take the client within timeout(), and at an interrupt; or with the
+  /// server's refusal, unless that is for now alone.
   Expected<void> join_again(const Error& why, const InterruptGuard& guard);
   void close() { joined_.client->close(); }
 
@@ -47,8 +49,8 @@ class ServerSession {
   stream::ConnectSettings settings_;
   stream::Hello hello_;
   stream::Joined joined_;
-  std::string said_;
-  bool lost_ = false, fruitful_ = false;
+  std::optional<stream::Refusal> refusal_;  // the last one on this connection
+  bool lost_ = false, brought_picture_ = false;
 };
 
 }  // namespace lambent::cli

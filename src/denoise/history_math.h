@@ -67,7 +67,7 @@ LAMBENT_FN float kept_by_lookup(float before, float now) {
   return clamp((ratio - kOtherLookup) / (kSameLookup - kOtherLookup), 0.0f, 1.0f);
 }
 
-// Gathered excess, what a ray brings beyond kBrightestRay times the lookup, comes once in many
+// Gathered excess, what a ray brings beyond kBrightestRay times known_level(), comes once in many
 // frames and then lights a whole surface. The average gives each frame this weight, from none on: a
 // first frame that showed it whole would be a flash, too. In a hall whose lamp hangs 3 cm off a
 // surface, a single ray changes the mean irradiance by 40 %, and by 3 % with this weight.

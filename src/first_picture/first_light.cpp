@@ -38,7 +38,7 @@ constexpr float kMinLitThroughDoors = 0.02f;
 constexpr float kMinEnclosure = 0.75f;
 // A room is closed where at most this share of the sky is visible from what the camera sees.
 constexpr float kMaxSkyIndoors = 0.08f;
-// A building has a court where at least this share of its enclosed air has no ceiling but glass.
+// A building has a court where the sky is above at least this share of its enclosed air.
 constexpr float kMinCourt = 0.05f;
 // Sky light in closed rooms with windows, as a share of that outdoors, so that windows are not
 // black.
@@ -125,8 +125,8 @@ bool has_ground(const World& world, const Bounds& bounds) {
          static_cast<float>(above) >= kMinThings * count;
 }
 
-/// Whether much of the scene's enclosed air is under the sky, be it behind glass; `if_none` where
-/// no air is enclosed.
+/// Whether the sky is visible above much of the scene's enclosed air, through glass or not;
+/// `if_none` where no air is enclosed.
 bool has_court(const World& world, bool if_none) {
   const SpaceSurvey survey = survey_space(world, find_subject(world).bounds);
   const auto open = std::count_if(survey.enclosed.begin(), survey.enclosed.end(),

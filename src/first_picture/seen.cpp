@@ -86,7 +86,7 @@ PointLight light_at(const World& world, const LitPoint& point, RandomStream& ran
         sample_cosine_about(point.geometric_normal_ws, next_uniform2(random));
     const Ray ray{offset_ray_origin(point.position_ws, point.geometric_normal_ws), 0.0f, direction};
     const Hit hit = tracer_of(world).closest_hit(ray);
-    if (hit.missed() || shows_sky_through_glass(world, ray)) {
+    if (hit.missed() || leads_to_sky(world, ray)) {
       ++light.escaped;
       continue;
     }
@@ -132,7 +132,7 @@ SeenView sample_view(const World& world, const Camera& camera) {
   towards_sky.trace(tracer_of(world), rays);
   std::size_t open = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    open += largest(towards_sky.share(i)) >= kClear ? 1 : 0;
+    open += largest(towards_sky.share(i)) >= kMinClearTransmittance ? 1 : 0;
   }
   view.sky_share = static_cast<float>(open) / static_cast<float>(rays.size());
   return view;

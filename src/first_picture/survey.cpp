@@ -132,11 +132,11 @@ std::vector<SurfaceSample> sample_surfaces(const Scene& scene,
   return points;
 }
 
-bool shows_sky_through_glass(const World& world, const Ray& ray) {
-  if (!tracer_of(world).has_glass()) return false;
+bool leads_to_sky(const World& world, const Ray& ray) {
+  if (!tracer_of(world).dims_shadows()) return false;
   glm::vec3 share;
   tracer_of(world).transmittances({&ray, 1}, {&share, 1});
-  return std::max({share.r, share.g, share.b}) >= kClear;
+  return std::max({share.r, share.g, share.b}) >= kMinClearTransmittance;
 }
 
 SpaceSurvey survey_space(const World& world, const Bounds& bounds) {
@@ -182,7 +182,7 @@ SpaceSurvey survey_space(const World& world, const Bounds& bounds) {
     const Ray& upwards = rays[static_cast<std::size_t>(i) * kRays + kWaysAround + 1];
     const OpenPlace open{place, place.y - down.distance,
                          up.missed() ? bounds.max.y : place.y + up.distance, up.missed(),
-                         up.missed() || shows_sky_through_glass(world, upwards)};
+                         up.missed() || leads_to_sky(world, upwards)};
     survey.sheltered.push_back(open);
     if (closed < kMinClosedWays) continue;
     survey.enclosed.push_back(open);

@@ -28,11 +28,11 @@ std::vector<SurfaceSample> sample_surfaces(const Scene& scene,
 /// Rays in `count` directions that cover the sphere evenly, `reach` long [m].
 std::vector<Ray> rays_around(const glm::vec3& place_ws, int count, float reach = kInfiniteDistance);
 
-// The sky is visible through glass that transmits at least this share of its light.
-inline constexpr float kClear = 0.1f;
+// The sky is visible through surfaces that transmit at least this share of its light.
+inline constexpr float kMinClearTransmittance = 0.1f;
 
-/// Whether a ray that hits something leaves the scene through clear glass.
-bool shows_sky_through_glass(const World& world, const Ray& ray);
+/// Whether the sky is visible along a ray that hits something: through glass, or what is blended.
+bool leads_to_sky(const World& world, const Ray& ray);
 
 /// Whether a hit shows the back of a surface. Two-sided surfaces have no back, whatever their
 /// winding.
@@ -44,7 +44,7 @@ struct OpenPlace {
   float floor = 0.0f;           ///< Height of the surface below [m].
   float ceiling = 0.0f;         ///< Height of the surface above, or else of the bounds' top [m].
   bool open_above = false;      ///< There is no surface above.
-  bool under_sky = false;       ///< There is none, or but glass.
+  bool under_sky = false;       ///< The sky is visible above, through glass or not.
 };
 
 /// Random places in a box, classified.

@@ -17,7 +17,8 @@ const float kBrightestRay = 32.0f;
 
 /// Luminance of the irradiance that a pixel is known to have: that from a lookup of the field or,
 /// where it is larger, the mean of the pixel's rays without the brightest. Where several rays bring
-/// far more than the lookup, they are not rare. `sum` and `most`: of their luminances.
+/// far more than the lookup, they are not rare. `sum`: that of the rays' luminances; `most`: the
+/// largest of these.
 LAMBENT_FN float known_level(vec3 looked_up, float sum, float most, uint count) {
   float level = luminance(looked_up);
   return count > 1u ? max(level, (sum - most) / float(count - 1u)) : level;

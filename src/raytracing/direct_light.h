@@ -38,7 +38,7 @@ struct LitPoint {
   uint albedo_shape = 0;
   glm::vec3 to_viewer_ws{0.0f};     ///< Unit; read where there is a shape, and by lookups.
   float viewer_distance = 0.0f;     ///< Length of the unoccluded segment towards the viewer [m].
-  float mean_normal_length = 1.0f;  ///< See bumpy_cosine().
+  float mean_normal_length = 1.0f;  ///< See Reflectance.
 };
 
 /// How a surface reflects light to a viewer.

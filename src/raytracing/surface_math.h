@@ -106,9 +106,12 @@ LAMBENT_FN float widened_alpha(float alpha, float spread) {
   return min(sqrt(alpha * alpha + kGgxOverVariance * spread * spread), max(alpha, 1.0f));
 }
 
-// Bounds the mean length of normals below, which is divided by. That of normals all over a
-// hemisphere is 0.5.
+// Least length of a mean of normals. That of normals all over a hemisphere is 0.5, so only maps of
+// other vectors have shorter ones.
 const float kLeastMeanLength = 0.1f;
+// Least cosine between a shading and a geometric normal from which mean_length_of_share() can tell
+// the length: rounding of packed normals is 1e-4.
+const float kLeastTellingCosine = 0.1f;
 
 /// Length of the mean of unit normals that a map scales, from the length of that of unscaled ones:
 /// scaling multiplies the tangents of the angles between normals and mean. At least
@@ -179,9 +182,11 @@ LAMBENT_FN float horizon_share(float length, float cosine) {
   return 0.5f + 0.5f * length * cosine;
 }
 
-/// The length from which horizon_share() is this; 1 where nothing of the field's light is received.
+/// The length of which this is the horizon_share(). 1 where it cannot be told: where a surface
+/// receives none of the field's light, or its shading normal is nearly at right angles to its
+/// triangle's.
 LAMBENT_FN float mean_length_of_share(float gi_share, float cosine) {
-  if (gi_share <= 0.0f || cosine < kLeastMeanLength) return 1.0f;
+  if (gi_share <= 0.0f || cosine < kLeastTellingCosine) return 1.0f;
   return clamp((2.0f * gi_share - 1.0f) / cosine, kLeastMeanLength, 1.0f);
 }
 

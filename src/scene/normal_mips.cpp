@@ -33,8 +33,12 @@ constexpr float kSquaredMedian = 1.3862944f;
 // length: (1 - sqrt(1/3)) / 2.
 constexpr float kGaussPoint = 0.21132487f;
 
-// Shorter vectors have no direction, but that of rounding.
+// Shorter vectors have no direction: they are 0 up to rounding, which is 1/255 along each axis,
+// twice over.
 constexpr float kShortestVector = 0.02f;
+
+// Half of the range of a byte, which holds a component of a vector, -1 to 1.
+constexpr float kHalfRange = 127.5f;
 
 // Alpha where normals do not scatter.
 constexpr std::uint8_t kNoSpread = 255;
@@ -101,14 +105,15 @@ float component(std::uint8_t byte) {
   return 2.0f * linear_byte_decoding()[byte] - 1.0f;
 }
 
-/// Stores a vector with the length 1, or, where it is too short for that, nothing.
+/// Stores a vector with the length 1, of which component() gives the components; nothing where it
+/// has no direction.
 void store_unit(const glm::vec3& vector, std::uint8_t* texel) {
   const float squared = glm::dot(vector, vector);
   if (squared < kShortestVector * kShortestVector) return;
-  const float scale = 127.5f / std::sqrt(squared);
+  const float scale = kHalfRange / std::sqrt(squared);
   for (int c = 0; c < 3; ++c) {
     // + 0.5 rounds
-    texel[c] = static_cast<std::uint8_t>(vector[c] * scale + (127.5f + 0.5f));
+    texel[c] = static_cast<std::uint8_t>(vector[c] * scale + (kHalfRange + 0.5f));
   }
 }
 

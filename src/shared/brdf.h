@@ -19,7 +19,9 @@ struct Reflectance {
   /// Specular reflectance at grazing incidence; 0 with f0 = 0 is an exact Lambert surface.
   float f90;
   SurfaceLayers layers;
-  float mean_normal_length;  ///< See bumpy_cosine().
+  /// Length of the mean of the unit normals that it averages over, kLeastMeanLength to 1; 1: there
+  /// are no bumps. Scales what the base receives, see bumpy_cosine().
+  float mean_normal_length;
 };
 
 /// Schlick 1994: the share reflected by the coat at the angle between direction and half vector.
@@ -40,33 +42,36 @@ struct ReflectedLobes {
   float clearcoat;
 };
 
-/// BRDF times cosine of base and coat, without the layers.
+/// BRDF times cosine of base and coat, without the layers. The base also receives light from below
+/// the horizon where it has bumps.
 LAMBENT_FN ReflectedPair evaluate_under_layers(Reflectance surface, vec3 to_viewer, vec3 to_light) {
   ReflectedPair result = {vec3(0.0f), vec3(0.0f)};
   float n_dot_v = to_viewer.z;
   float n_dot_l = to_light.z;
-  if (n_dot_v <= 0.0f || n_dot_l <= 0.0f) return result;
   float received = bumpy_cosine(n_dot_l, surface.mean_normal_length);
+  if (n_dot_v <= 0.0f || received <= 0.0f) return result;
   if (surface.f90 <= 0.0f) {
     result.diffuse = surface.diffuse * (kInvPi * received);
     return result;
   }
   vec3 h = normalize(to_viewer + to_light);
   vec3 f = fresnel(surface, dot(to_viewer, h));
+  result.diffuse = (vec3(1.0f) - f) * surface.diffuse * (kInvPi * received);
+  if (n_dot_l <= 0.0f) return result;
   float d = ggx_distribution(h.z, surface.alpha);
   float g = 1.0f / (1.0f + ggx_lambda(n_dot_v, surface.alpha) + ggx_lambda(n_dot_l, surface.alpha));
-  result.diffuse = (vec3(1.0f) - f) * surface.diffuse * (kInvPi * received);
   result.specular = f * (d * g / (4.0f * n_dot_v));
   return result;
 }
 
 /// BRDF times cosine, for unit directions to the viewer and to the light in the frame whose normal
-/// is +Z. Zero where either is below the surface.
+/// is +Z. Zero where either is below the surface, except for light on bumps.
 LAMBENT_FN ReflectedLobes evaluate_lobes(Reflectance surface, vec3 to_viewer, vec3 to_light) {
   ReflectedPair under = evaluate_under_layers(surface, to_viewer, to_light);
   ReflectedLobes lobes = {under.diffuse, under.specular, 0.0f};
   SurfaceLayers layers = surface.layers;
   if (!has_layers(layers)) return lobes;
+  if (to_light.z <= 0.0f) lobes.diffuse = vec3(0.0f);  // layers have no bumps
   lobes.diffuse *= even_share_under_layers(layers, to_viewer, to_light);
   lobes.specular *= coat_share_under_layers(layers, to_viewer, to_light);
   if (has_sheen(layers)) {

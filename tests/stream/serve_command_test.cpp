@@ -237,38 +237,65 @@ TEST(ServeCommand, RefusesOptionsThatDoNotGoTogetherBeforeItReadsTheScene) {
 
 TEST(ConnectCommand, GoesOnOnceItsServerIsBack) {
   const test::TemporaryDirectory directory;
-  std::vector<std::string> pictures, own;
-  auto first = std::make_unique<RunningServer>();
-  ASSERT_GT(first->port(), 0) << first->said();
-  const std::string port = std::to_string(first->port());
-  const auto frame = [&](const std::string& name, int number) {
-    return directory.file(name + (number < 10 ? ".000" : ".00") + std::to_string(number) + ".png");
-  };
+  RunningServer first;
+  ASSERT_GT(first.port(), 0) << first.said();
+  const std::string port = std::to_string(first.port());
   const auto connect = [&](const std::string& name, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"connect", first->host(), "--frames",
-                                          "20",      "-o",          directory.file(name + ".png"),
-                                          "--size",  "96x64"};
+    std::vector<std::string> arguments = {
+        "connect", first.host(), "--frames",  "200", "-o", directory.file(name + ".png"),
+        "--size",  "96x64",      "--timeout", "60"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return test::start_program(arguments);
+  };
+  const auto has = [&](const std::string& name, const std::string& frame) {
+    return std::filesystem::exists(directory.file(name + "." + frame + ".png"));
+  };
+  /// Waits until both clients have written a frame.
+  const auto wait_for = [&](const std::string& frame) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!has("seen", frame) || !has("lit", frame)) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      usleep(10'000);
+    }
+    return true;
   };
   const std::array<pid_t, 2> clients = {
       connect("seen", {"--eye", "2.7,2.7,-5", "--target", "2.7,2.7,0"}),
       connect("lit", {"--scene", "cornell-spot", "--quality", "draft"})};
-  for (const char* name : {"seen", "lit"}) {
-    while (!std::filesystem::exists(frame(name, 0))) usleep(10'000);
-  }
-  EXPECT_EQ(first->end(SIGKILL), -1);
+  EXPECT_TRUE(wait_for("0000"));
+  EXPECT_EQ(first.end(SIGKILL), -1);
+  // Of a scene at rest, a server sends fewer pictures than these, and light until it has settled
+  EXPECT_FALSE(has("seen", "0017"));
   std::vector<std::string> again = kSmall;
   std::ranges::replace(again, std::string("0"), port);
   const RunningServer second({}, again);
-  ASSERT_EQ(std::to_string(second.port()), port) << second.said();
+  EXPECT_EQ(std::to_string(second.port()), port) << second.said();
+  EXPECT_TRUE(wait_for("0020"));
+  // They wait for the rest, and end at once
   for (const pid_t client : clients) {
-    int status = -1;
-    waitpid(client, &status, 0);
-    EXPECT_EQ(status, 0);
+    kill(client, SIGKILL);
+    waitpid(client, nullptr, 0);
   }
-  EXPECT_TRUE(std::filesystem::exists(frame("seen", 19)));
-  EXPECT_TRUE(std::filesystem::exists(frame("lit", 19)));
+}
+
+TEST(ConnectCommand, NamesItsPicturesWhereItIsInterruptedWithoutAServer) {
+  const test::TemporaryDirectory directory;
+  RunningServer server;
+  ASSERT_GT(server.port(), 0) << server.said();
+  const pid_t client =
+      test::start_program({"connect", server.host(), "--frames", "200", "-o",
+                           directory.file("a.png"), "--size", "96x64", "--timeout", "60"});
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!std::filesystem::exists(directory.file("a.0000.png")) &&
+         std::chrono::steady_clock::now() < end) {
+    usleep(10'000);
+  }
+  EXPECT_EQ(server.end(SIGKILL), -1);
+  usleep(300'000);  // it has begun to look for the server
+  kill(client, SIGINT);
+  int status = -1;
+  waitpid(client, &status, 0);
+  EXPECT_EQ(status, 0);
 }
 
 TEST(ConnectCommand, TellsWhatIsWrong) {

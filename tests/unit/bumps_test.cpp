@@ -19,6 +19,7 @@ namespace {
 
 constexpr int kEdge = 64;
 constexpr std::array kCosines = {0.95f, 0.6f, 0.3f, 0.15f};
+constexpr std::array kGrazing = {0.05f, 0.0f, -0.05f, -0.15f};
 
 /// Two independent numbers, normally distributed with variance 1. Box and Muller, "A Note on the
 /// Generation of Random Normal Deviates", 1958.
@@ -50,10 +51,27 @@ TEST(BumpyCosine, IsTheMeanOverNormallyDistributedSlopes) {
   }
 }
 
+TEST(BumpyCosine, GoesOnBelowTheHorizon) {
+  constexpr float kSlope = 0.2f;
+  for (const float cosine : kGrazing) {
+    RandomStream random = make_random_stream(1, 2, 3);
+    constexpr int kNormals = 200000;
+    double received = 0.0, length = 0.0;
+    for (int i = 0; i < kNormals; ++i) {
+      const vec3 normal = glm::normalize(vec3(kSlope * next_normal2(random), 1.0f));
+      received += std::max(0.0f, glm::dot(normal, to_light(cosine)));
+      length += normal.z;
+    }
+    received /= kNormals, length /= kNormals;
+    EXPECT_NEAR(bumpy_cosine(cosine, static_cast<float>(length)), received, 0.003) << cosine;
+  }
+}
+
 TEST(BumpyCosine, IsTheCosineWithoutBumpsAndHasNoStep) {
   EXPECT_EQ(bumpy_cosine(0.3f, 1.0f), 0.3f);
-  float before = bumpy_cosine(1e-4f, 0.9f);
-  for (float cosine = 0.001f; cosine <= 1.0f; cosine += 0.001f) {
+  float before = bumpy_cosine(-1.0f, 0.9f);
+  EXPECT_EQ(before, 0.0f);
+  for (float cosine = -0.999f; cosine <= 1.0f; cosine += 0.001f) {
     const float now = bumpy_cosine(cosine, 0.9f);
     EXPECT_GE(now, before) << cosine;
     EXPECT_LT(now - before, 0.0015f) << cosine;

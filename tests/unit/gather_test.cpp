@@ -70,7 +70,7 @@ TEST(Gather, WhatRareBrightRaysBringIsKeptApartAndNotLost) {
   frame.width = frame.height = 40;
   const GBuffer gbuffer = test::seen_of(stage, frame);
   GatherRequest request{gbuffer.surfaces, gbuffer.hit, frame.width, 0, 1};
-  GatheredLight whole, apart;
+  GatheredLight whole, apart, of_several, several_apart;
   gather_irradiance(stage.world, field, request, whole);
   EXPECT_TRUE(whole.excess.empty());
   // What the field knows is made so dark that many rays are far brighter
@@ -86,6 +86,20 @@ TEST(Gather, WhatRareBrightRaysBringIsKeptApartAndNotLost) {
   }
   EXPECT_GT(luminance(excess), 0.1f * luminance(all));
   EXPECT_NEAR(luminance(kept + excess), luminance(all), 1e-4f * luminance(all));
+
+  // Of eight rays, most bring as much as the others, and nothing is lost either
+  request.rays_per_pixel = 8;
+  gather_irradiance(stage.world, field, request, several_apart);
+  request.known = {};
+  gather_irradiance(stage.world, field, request, of_several);
+  vec3 sum(0.0f), sum_of_excess(0.0f), of_all(0.0f);
+  for (std::size_t i = 0; i < gbuffer.size(); ++i) {
+    sum += several_apart.irradiance[i] + several_apart.excess[i];
+    sum_of_excess += several_apart.excess[i];
+    of_all += of_several.irradiance[i];
+  }
+  EXPECT_NEAR(luminance(sum), luminance(of_all), 1e-4f * luminance(of_all));
+  EXPECT_LT(luminance(sum_of_excess), 0.01f * luminance(of_all));
 }
 
 TEST(Gather, WhatSeveralOfAPixelsRaysBringIsNotRare) {

@@ -37,7 +37,8 @@ void main() {
   if (args.keeps_excess != 0u) {
     float total = 0.0f;
     float most = 0.0f;
-    for (uint r = 0u; r < args.rays_per_pixel; ++r) {
+    // A single ray is not compared with others
+    for (uint r = 0u; r < args.rays_per_pixel && args.rays_per_pixel > 1u; ++r) {
       float level = luminance(
           brought_by(k * args.rays_per_pixel + r, above, point.geometric_normal_ws));
       total += level;

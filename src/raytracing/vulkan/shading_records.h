@@ -26,7 +26,7 @@ struct LitPointRecord {
   vec3 to_viewer_ws;         ///< Unit; read where there is a shape, and by lookups.
   float viewer_distance;     ///< Length of the unoccluded segment towards the viewer [m].
   float light_distance;      ///< See ShadedHit; infinite until light_irradiance draws it.
-  float mean_normal_length;  ///< See bumpy_cosine().
+  float mean_normal_length;  ///< See Reflectance.
 };
 
 /// The surface that a camera ray hit, without its point; see Surface in surface_math.h.

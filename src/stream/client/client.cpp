@@ -209,7 +209,9 @@ Expected<Joined> join(const ConnectSettings& settings, const Hello& hello) {
     if (auto* welcome = std::get_if<Welcome>(&**answer))
       return Joined{std::move(*client), *welcome};
     if (auto* refusal = std::get_if<Refusal>(&**answer)) {
-      return fail("", settings.host, "refuses: " + refusal->text);
+      const bool for_now = refusal->code == Refusal::Code::too_many;
+      return fail("", settings.host, "refuses: " + refusal->text,
+                  for_now ? Error::Kind::failed : Error::Kind::bad_input);
     }
   }
   return fail("", settings.host, "does not answer as a server of lambent's", Error::Kind::failed);

@@ -55,6 +55,8 @@ class Client {
 };
 
 /// A client that a server has accepted, directly or through a broker, and the server's welcome.
+/// Joining fails with Error::Kind::failed where it may succeed later: nobody answers, or the server
+/// has as many clients as it may.
 struct Joined {
   std::unique_ptr<Client> client;
   Welcome welcome;

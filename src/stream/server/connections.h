@@ -17,9 +17,9 @@
 namespace lambent::stream {
 
 /// The listener's interface to a connection.
-class Session {
+class OpenConnection {
  public:
-  virtual ~Session() = default;
+  virtual ~OpenConnection() = default;
   /// Sends the reason to the client where it can be told, and closes.
   virtual void refuse(Refusal refusal) = 0;
   /// Closes the connection at once if it has not asked for anything yet; returns whether it did.
@@ -45,7 +45,8 @@ struct ConnectionContext {
   std::chrono::steady_clock::time_point session_start = std::chrono::steady_clock::now();
   std::uint32_t session_clients = 0;  // number of clients so far
   std::size_t connections = 0;
-  std::vector<std::weak_ptr<Session>> sessions;  // the oldest first
+  // In the order in which they came, a WebSocket from its handshake on
+  std::vector<std::weak_ptr<OpenConnection>> open;
   boost::asio::io_context io{1};  // last: its connections must be destroyed before everything else
 
   /// Records a message of a client if a session is recorded; none: the client has left.

@@ -18,7 +18,7 @@ namespace lambent::stream {
 namespace {
 
 /// Reads the first request of a connection and answers it. Pending operations own the object.
-class HttpConnection : public Session, public std::enable_shared_from_this<HttpConnection> {
+class HttpConnection : public OpenConnection, public std::enable_shared_from_this<HttpConnection> {
  public:
   using ErrorCode = boost::beast::error_code;
 
@@ -26,7 +26,7 @@ class HttpConnection : public Session, public std::enable_shared_from_this<HttpC
       : context_(context), count_(context), stream_(std::move(stream)), buffer_(kMaxHeaderBytes) {}
 
   void start() {
-    context_.sessions.push_back(weak_from_this());
+    context_.open.push_back(weak_from_this());
     stream_.expires_after(context_.settings.hello_timeout);
     stream_.async_handshake(boost::beast::role_type::server,
                             [self = shared_from_this()](ErrorCode error) {
@@ -58,14 +58,14 @@ class HttpConnection : public Session, public std::enable_shared_from_this<HttpC
   void read() {
     parser_.header_limit(kMaxHeaderBytes);
     parser_.body_limit(std::uint64_t{0});
-    boost::beast::http::async_read(stream_, buffer_, parser_,
-                                   [self = shared_from_this()](ErrorCode error, std::size_t) {
-                                     if (!error) {
-                                       self->answer();
-                                     } else if (error != boost::beast::http::error::end_of_stream) {
-                                       self->context_.count_refused();
-                                     }
-                                   });
+    boost::beast::http::async_read(
+        stream_, buffer_, parser_, [self = shared_from_this()](ErrorCode error, std::size_t) {
+          if (!error) {
+            self->answer();
+          } else if (self->waits_ && error != boost::beast::http::error::end_of_stream) {
+            self->context_.count_refused();
+          }
+        });
   }
 
   void answer() {

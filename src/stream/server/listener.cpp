@@ -111,9 +111,9 @@ class BeastListener : public Listener {
       ErrorCode ignored;
       acceptor_.close(ignored);
       ending_ = Clock::now() + kDrainTimeout;
-      for (const auto& weak : context_.sessions) {
-        if (const auto session = weak.lock()) {
-          session->refuse({Refusal::Code::shutting_down, "the server ends"});
+      for (const auto& weak : context_.open) {
+        if (const auto connection = weak.lock()) {
+          connection->refuse({Refusal::Code::shutting_down, "the server ends"});
         }
       }
     });
@@ -161,10 +161,10 @@ class BeastListener : public Listener {
   void take(tcp::socket socket) {
     if (context_.connections >= context_.settings.max_connections) {
       context_.count_refused();
-      // The oldest connection that is silent gives way
-      const bool has_room = std::ranges::any_of(context_.sessions, [](const auto& weak) {
-        const auto session = weak.lock();
-        return session && session->give_way();
+      // The connection that has waited longest without asking for anything gives way
+      const bool has_room = std::ranges::any_of(context_.open, [](const auto& weak) {
+        const auto connection = weak.lock();
+        return connection && connection->give_way();
       });
       if (!has_room) return;  // which closes the socket
     }
@@ -176,7 +176,7 @@ class BeastListener : public Listener {
 
   /// Checks deadlines and tokens, and completes `drain`.
   void tick() {
-    std::erase_if(context_.sessions, [](const auto& weak) { return weak.expired(); });
+    std::erase_if(context_.open, [](const auto& weak) { return weak.expired(); });
     if (ending_ && (context_.connections == 0 || Clock::now() > *ending_)) {
       context_.io.stop();
       return;
@@ -184,8 +184,8 @@ class BeastListener : public Listener {
     if (const auto fresh = context_.access.refresh(); !fresh) {
       context_.settings.log("no token is good now: " + fresh.error().message());
     }
-    for (const auto& weak : context_.sessions) {
-      if (const auto session = weak.lock()) session->tick();
+    for (const auto& weak : context_.open) {
+      if (const auto connection = weak.lock()) connection->tick();
     }
     timer_.expires_after(ending_ ? kTick / 10 : kTick);
     timer_.async_wait([this](ErrorCode error) {

@@ -26,8 +26,9 @@ struct ListenSettings {
   /// A .glb file that authorised clients get as /scene.glb; null: none.
   std::shared_ptr<const std::string> scene;
   std::string record;  ///< File to which the session is recorded (SessionWriter); empty: none.
-  /// Clients and plain requests at a time. Where there are as many, those that have not asked for
-  /// anything give way to others, the oldest first.
+  /// Clients and plain requests at a time. Where there are as many, a new connection takes the
+  /// place of the one that has waited longest without a request or, as a WebSocket, without a
+  /// Hello.
   std::size_t max_connections = 64;
   double max_message_rate = 200.0;  ///< Messages of a client per second.
   /// Time for a connection to send its request and Hello.

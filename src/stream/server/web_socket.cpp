@@ -15,7 +15,7 @@ namespace lambent::stream {
 namespace {
 
 /// Reads messages of a client, and writes those of its link, one at a time.
-class WebSocket : public Session, public std::enable_shared_from_this<WebSocket> {
+class WebSocket : public OpenConnection, public std::enable_shared_from_this<WebSocket> {
  public:
   using ErrorCode = boost::beast::error_code;
 
@@ -32,7 +32,7 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket>
 
   void accept(const WebSocketRequest& request) {
     namespace websocket = boost::beast::websocket;
-    context_.sessions.push_back(weak_from_this());
+    context_.open.push_back(weak_from_this());
     // From here on, the WebSocket has its own timeouts
     socket_.next_layer().expires_never();
     websocket::stream_base::timeout timeouts{};
