@@ -108,10 +108,7 @@ struct Costs {
 Expected<stream::Picture> next_picture(ServerSession& session) {
   const auto end = std::chrono::steady_clock::now() + session.timeout();
   for (;;) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
-        end - std::chrono::steady_clock::now());
-    if (left.count() <= 0) break;
-    auto message = session.receive(left);
+    auto message = session.receive_until(end);
     if (!message) return tl::unexpected(message.error());
     if (!*message) break;
     if (auto* picture = std::get_if<stream::Picture>(&**message)) return std::move(*picture);
@@ -161,14 +158,9 @@ Expected<void> receive_pictures(const ConnectOptions& options,
                                 ServerSession& session) {
   ReceivedFrames frames;
   const InterruptGuard guard;
-  for (;;) {
-    const auto done = receive_frames(options, camera, guard, session, frames);
-    if (done) break;
-    if (!session.can_join_again()) return done;
-    const auto back = session.join_again(done.error(), guard);
-    if (!back && guard.interrupted()) break;
-    if (!back) return back;
-  }
+  const auto done = session.over_connections(
+      guard, [&] { return receive_frames(options, camera, guard, session, frames); });
+  if (!done) return done;
   if (frames.written.empty()) return fail("", "", "was interrupted", Error::Kind::failed);
   tell_written(frames.written,
                pixels_text(static_cast<int>(frames.size.x), static_cast<int>(frames.size.y)),

@@ -27,10 +27,7 @@ namespace {
 Expected<void> wait_for_light(ServerSession& session, stream::LitScene& lit) {
   const auto end = std::chrono::steady_clock::now() + session.timeout();
   for (;;) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
-        end - std::chrono::steady_clock::now());
-    if (left.count() <= 0) break;
-    const auto message = session.receive(left);
+    const auto message = session.receive_until(end);
     if (!message) return tl::unexpected(message.error());
     if (!*message) break;
     // What a server says before it ends the connection is kept by the session
@@ -76,13 +73,9 @@ class LitPictures {
     Scene& scene = opened->scene;
     begin_step("preparing the scene for rays");
     World world(scene);
-    // The server chose its first light by its own view, so choose it here by the same view
-    const auto light =
-        add_first_light(options_.scene.light, stream::camera_of(session.welcome().camera),
-                        opened->sky_dome, scene, world);
-    if (!light) return tl::unexpected(light.error());
-    const auto same = check_same_scene("HOST", options_.server, session.welcome(), scene);
-    if (!same) return same;
+    const auto added = add_light_of_server("HOST", options_.server, session.welcome(),
+                                           options_.scene, *opened, world);
+    if (!added) return added;
     stream::LitScene lit(scene, world);
     if (const auto asked = ask_for_light(session, lit); !asked) return asked;
     std::optional<Renderer> renderer;
@@ -157,15 +150,8 @@ Expected<void> render_by_stream(const ConnectOptions& options, ServerSession& se
   if (!size) return tl::unexpected(size.error());
   LitPictures pictures(options, *size, camera);
   const InterruptGuard guard;
-  for (;;) {
-    const auto done = pictures.write(session, guard);
-    if (done) break;
-    if (!session.can_join_again()) return done;
-    const auto back = session.join_again(done.error(), guard);
-    if (!back && guard.interrupted()) break;
-    if (!back) return back;
-  }
-  return pictures.tell();
+  const auto done = session.over_connections(guard, [&] { return pictures.write(session, guard); });
+  return done ? pictures.tell() : done;
 }
 
 }  // namespace lambent::cli

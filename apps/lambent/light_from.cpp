@@ -4,10 +4,27 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "lambent/light_options.h"
 #include "lambent/server_address.h"
 #include "lambent/words.h"
+#include "stream/edits/edits.h"
 
 namespace lambent::cli {
+namespace {
+
+/// Fails where the objects and lights of the scene differ from the server's.
+Expected<void> check_same_scene(const std::string& option, const std::string& server,
+                                const stream::Welcome& welcome, const Scene& scene) {
+  const std::size_t lights = std::min(scene.lights.size(), stream::kMaxToldLights);
+  if (welcome.instances == scene.instances.size() && welcome.lights.size() == lights) return {};
+  return fail(option, server,
+              "serves another scene: it has " + count_text(welcome.instances, "object") + " and " +
+                  count_text(welcome.lights.size(), "light") + ", this one " +
+                  count_text(scene.instances.size(), "object") + " and " +
+                  count_text(lights, "light"));
+}
+
+}  // namespace
 
 void add_light_from_options(CLI::App& command, LightFromOptions& o,
                             const std::vector<CLI::Option*>& of_own_light) {
@@ -40,15 +57,14 @@ Expected<std::unique_ptr<stream::Upstream>> open_upstream(const LightFromOptions
   return stream::Upstream::open(settings);
 }
 
-Expected<void> check_same_scene(const std::string& option, const std::string& server,
-                                const stream::Welcome& welcome, const Scene& scene) {
-  const std::size_t lights = std::min(scene.lights.size(), stream::kMaxToldLights);
-  if (welcome.instances == scene.instances.size() && welcome.lights.size() == lights) return {};
-  return fail(option, server,
-              "serves another scene: it has " + count_text(welcome.instances, "object") + " and " +
-                  count_text(welcome.lights.size(), "light") + ", this one " +
-                  count_text(scene.instances.size(), "object") + " and " +
-                  count_text(lights, "light"));
+Expected<void> add_light_of_server(const std::string& option, const std::string& server,
+                                   const stream::Welcome& welcome, const SceneOptions& options,
+                                   OpenedScene& opened, World& world) {
+  // The server chose its first light by its own view, so choose it here by the same view
+  const auto light = add_first_light(options.light, stream::camera_of(welcome.camera),
+                                     opened.sky_dome, opened.scene, world);
+  if (!light) return tl::unexpected(light.error());
+  return check_same_scene(option, server, welcome, opened.scene);
 }
 
 }  // namespace lambent::cli

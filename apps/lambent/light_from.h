@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "lambent/error.h"
-#include "lambent/scene.h"
+#include "lambent/scene_options.h"
+#include "lambent/world.h"
 #include "stream/client/upstream.h"
 
 namespace CLI {
@@ -30,9 +31,11 @@ void add_light_from_options(CLI::App& command, LightFromOptions& options,
 /// Connects to the server that the options name.
 Expected<std::unique_ptr<stream::Upstream>> open_upstream(const LightFromOptions& options);
 
-/// Fails, naming the server as the value of an option, where the objects and lights of the scene
-/// differ from the server's.
-Expected<void> check_same_scene(const std::string& option, const std::string& server,
-                                const stream::Welcome& welcome, const Scene& scene);
+/// Gives a copy of a server's scene the light that the server chose for it, and updates the world.
+/// Fails, naming the server as the value of an option, where objects or lights then differ from the
+/// server's.
+Expected<void> add_light_of_server(const std::string& option, const std::string& server,
+                                   const stream::Welcome& welcome, const SceneOptions& options,
+                                   OpenedScene& opened, World& world);
 
 }  // namespace lambent::cli

@@ -184,13 +184,10 @@ Expected<void> serve_relayed(const ServeOptions& options, const stream::PictureS
   Scene& scene = opened->scene;
   begin_step("preparing the scene for rays");
   World world(scene);
-  // The other server chose its first light by its own view, so choose it here by the same view
-  const Camera theirs = stream::camera_of(welcome.camera);
-  const auto light = add_first_light(options.scene.light, theirs, opened->sky_dome, scene, world);
-  if (!light) return tl::unexpected(light.error());
-  const auto same = check_same_scene("--light-from", options.light_from.server, welcome, scene);
-  if (!same) return same;
-  Camera camera = theirs;
+  const auto lit = add_light_of_server("--light-from", options.light_from.server, welcome,
+                                       options.scene, *opened, world);
+  if (!lit) return lit;
+  Camera camera = stream::camera_of(welcome.camera);
   const SceneOptions& asked = options.scene;
   if (!asked.camera.empty() || !asked.eye.empty() || !asked.target.empty() || asked.fov_degrees) {
     const Expected<View> view = served_view(options, world, pictures.limits.size);

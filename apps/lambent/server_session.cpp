@@ -27,8 +27,12 @@ Expected<void> ServerSession::send(const stream::Message& message) {
   return sent;
 }
 
-Expected<std::optional<stream::Message>> ServerSession::receive(std::chrono::milliseconds timeout) {
-  auto message = joined_.client->receive(timeout);
+Expected<std::optional<stream::Message>> ServerSession::receive_until(
+    std::chrono::steady_clock::time_point end) {
+  const auto left =
+      std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
+  if (left.count() <= 0) return std::optional<stream::Message>();
+  auto message = joined_.client->receive(left);
   if (!message) {
     // Messages that are not of the protocol are bad input, and leave the connection as it is
     if (message.error().kind == Error::Kind::failed) lost_ = true;
@@ -40,11 +44,16 @@ Expected<std::optional<stream::Message>> ServerSession::receive(std::chrono::mil
   return message;
 }
 
+/// Whether the connection was lost, and joining again may help: it has led to a picture, and the
+/// server did not end it for anything that the client did.
 bool ServerSession::can_join_again() const {
-  return lost_ && brought_picture_ &&
-         (!refusal_ || refusal_->code == stream::Refusal::Code::shutting_down);
+  using Code = stream::Refusal::Code;
+  const bool at_fault =
+      refusal_ && refusal_->code != Code::shutting_down && refusal_->code != Code::refused_input;
+  return lost_ && brought_picture_ && !at_fault;
 }
 
+/// Joins the server again, after the connection was lost because of `why`.
 Expected<void> ServerSession::join_again(const Error& why, const InterruptGuard& guard) {
   warn("the connection to the server was lost, and is tried again: " + why.message());
   const auto end = std::chrono::steady_clock::now() + settings_.timeout;
@@ -61,6 +70,17 @@ Expected<void> ServerSession::join_again(const Error& why, const InterruptGuard&
     std::this_thread::sleep_for(kRetry);
   }
   return tl::unexpected(why);
+}
+
+Expected<void> ServerSession::over_connections(const InterruptGuard& guard,
+                                               const std::function<Expected<void>()>& use) {
+  for (;;) {
+    const auto done = use();
+    if (done || !can_join_again()) return done;
+    const auto back = join_again(done.error(), guard);
+    if (guard.interrupted()) return {};
+    if (!back) return back;
+  }
 }
 
 }  // namespace lambent::cli

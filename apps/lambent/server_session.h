@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,22 +27,23 @@ class ServerSession {
 
   /// See stream::Client.
   Expected<void> send(const stream::Message& message);
-  /// The next message within a time; none if none arrives in time. The cause of a failure includes
-  /// what the server said last.
-  Expected<std::optional<stream::Message>> receive(std::chrono::milliseconds timeout);
+  /// The next message; none if none arrives in time. The cause of a failure includes what the
+  /// server said last.
+  Expected<std::optional<stream::Message>> receive_until(std::chrono::steady_clock::time_point end);
   /// Notes that the present connection has led to a picture.
   void note_picture() { brought_picture_ = true; }
 
-  /// Whether the connection was lost, and it is worth to join again: it has led to a picture, and
-  /// the server did not end it but to shut down.
-  bool can_join_again() const;
-  /// Joins the server again, after the connection was lost because of `why`. Fails with that where
-  /// the server does not take the client within timeout(), and at an interrupt; or with the
-  /// server's refusal, unless that is for now alone.
-  Expected<void> join_again(const Error& why, const InterruptGuard& guard);
+  /// Calls `use`, which uses the present connection, and, where that is lost after it has led to a
+  /// picture, joins the server again and repeats. Returns once a call succeeds or there is an
+  /// interrupt. Fails as a call fails, where the server refuses the client, and where it does not
+  /// take it within timeout().
+  Expected<void> over_connections(const InterruptGuard& guard,
+                                  const std::function<Expected<void>()>& use);
   void close() { joined_.client->close(); }
 
  private:
+  bool can_join_again() const;
+  Expected<void> join_again(const Error& why, const InterruptGuard& guard);
   ServerSession(const stream::ConnectSettings& settings, const stream::Hello& hello,
                 stream::Joined joined)
       : settings_(settings), hello_(hello), joined_(std::move(joined)) {}

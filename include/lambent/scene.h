@@ -39,12 +39,12 @@ enum class MipWeights : std::uint8_t { equal, alpha };
 /// the plain mean.
 void build_mips(Texture& texture, MipWeights weights = MipWeights::equal);
 /// The same for a normal map, whose texels are not sRGB-encoded, of any length and, as usual,
-/// interpolated where they are seen. The vectors of MIPs are means of unit normals; the shorter
-/// they are, the less light do surfaces receive that show them. Overwrites alpha: with 1 at the
-/// first level, and below with 1 minus the standard deviation, 0 to 1, of the slopes of a texel's
-/// normals along each axis, leaving out nearly half of them if these are steeper than the rest.
-/// Coats are rougher by it in views that average over normals: flat tiles stay flat between steep
-/// joints. Alpha is read so at every level; where it is 1, coats are no rougher.
+/// interpolated where they are seen. The vectors of MIPs are means of unit normals; surfaces that
+/// show shorter ones receive less light. Overwrites alpha: with 1 at the first level, and below
+/// with 1 minus the standard deviation, 0 to 1, of the slopes of a texel's normals along each axis,
+/// leaving out nearly half of them if these are steeper than the rest. Coats are rougher by it in
+/// views that average over normals: flat tiles stay flat between steep joints. Alpha is read so at
+/// every level; where it is 1, coats are no rougher.
 void build_normal_mips(Texture& texture);
 
 /// How a texture continues beyond its edges.

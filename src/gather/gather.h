@@ -36,8 +36,7 @@ struct GatheredLight {
   /// measure.
   std::vector<float> variance;
   /// Irradiance that rays add beyond kBrightestRay times known_level(); `irradiance` does not
-  /// include it.
-  /// Empty where `known` is.
+  /// include it. Empty where `known` is.
   std::vector<glm::vec3> excess;
 };
 

@@ -6,11 +6,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <numeric>
 #include <span>
 #include <vector>
-
-#include <glm/glm.hpp>
 
 #include "scene/texture.h"
 #include "shared/color.h"
@@ -33,8 +32,8 @@ constexpr float kSquaredMedian = 1.3862944f;
 // length: (1 - sqrt(1/3)) / 2.
 constexpr float kGaussPoint = 0.21132487f;
 
-// Shorter vectors have no direction: they are 0 up to rounding, which is 1/255 along each axis,
-// twice over.
+// Shorter vectors have no direction. A vector of 0 is stored with an error of up to 1/255 along
+// each axis, which is 0.007 in all; this is three times as long.
 constexpr float kShortestVector = 0.02f;
 
 // Half of the range of a byte, which holds a component of a vector, -1 to 1.

@@ -71,7 +71,7 @@ LAMBENT_FN ReflectedLobes evaluate_lobes(Reflectance surface, vec3 to_viewer, ve
   ReflectedLobes lobes = {under.diffuse, under.specular, 0.0f};
   SurfaceLayers layers = surface.layers;
   if (!has_layers(layers)) return lobes;
-  if (to_light.z <= 0.0f) lobes.diffuse = vec3(0.0f);  // layers have no bumps
+  if (to_light.z <= 0.0f) lobes.diffuse = vec3(0.0f);  // it would pass flat layers
   lobes.diffuse *= even_share_under_layers(layers, to_viewer, to_light);
   lobes.specular *= coat_share_under_layers(layers, to_viewer, to_light);
   if (has_sheen(layers)) {

@@ -19,7 +19,6 @@ namespace {
 
 constexpr int kEdge = 64;
 constexpr std::array kCosines = {0.95f, 0.6f, 0.3f, 0.15f};
-constexpr std::array kGrazing = {0.05f, 0.0f, -0.05f, -0.15f};
 
 /// Two independent numbers, normally distributed with variance 1. Box and Muller, "A Note on the
 /// Generation of Random Normal Deviates", 1958.
@@ -33,37 +32,39 @@ vec3 to_light(float cosine) {
   return {std::sqrt(1.0f - cosine * cosine), 0.0f, cosine};
 }
 
+/// What bumps with slopes of this deviation along each axis receive of a light at this cosine to
+/// their mean normal, and the length of the mean of their normals.
+struct Received {
+  Received(float slope, float cosine) {
+    RandomStream random = make_random_stream(1, 2, 3);
+    constexpr int kNormals = 200000;
+    double sum = 0.0, up = 0.0;
+    for (int i = 0; i < kNormals; ++i) {
+      const vec3 normal = glm::normalize(vec3(slope * next_normal2(random), 1.0f));
+      sum += std::max(0.0f, glm::dot(normal, to_light(cosine)));
+      up += normal.z;
+    }
+    mean = sum / kNormals;
+    length = static_cast<float>(up / kNormals);
+  }
+  double mean;
+  float length;
+};
+
 TEST(BumpyCosine, IsTheMeanOverNormallyDistributedSlopes) {
   for (const float slope : {0.05f, 0.15f, 0.3f}) {
     for (const float cosine : kCosines) {
-      RandomStream random = make_random_stream(1, 2, 3);
-      constexpr int kNormals = 200000;
-      double received = 0.0, length = 0.0;
-      for (int i = 0; i < kNormals; ++i) {
-        const vec3 normal = glm::normalize(vec3(slope * next_normal2(random), 1.0f));
-        received += std::max(0.0f, glm::dot(normal, to_light(cosine)));
-        length += normal.z;
-      }
-      received /= kNormals, length /= kNormals;
-      EXPECT_NEAR(bumpy_cosine(cosine, static_cast<float>(length)), received, 0.02 * received)
+      const Received found(slope, cosine);
+      EXPECT_NEAR(bumpy_cosine(cosine, found.length), found.mean, 0.02 * found.mean)
           << slope << ", " << cosine;
     }
   }
 }
 
 TEST(BumpyCosine, GoesOnBelowTheHorizon) {
-  constexpr float kSlope = 0.2f;
-  for (const float cosine : kGrazing) {
-    RandomStream random = make_random_stream(1, 2, 3);
-    constexpr int kNormals = 200000;
-    double received = 0.0, length = 0.0;
-    for (int i = 0; i < kNormals; ++i) {
-      const vec3 normal = glm::normalize(vec3(kSlope * next_normal2(random), 1.0f));
-      received += std::max(0.0f, glm::dot(normal, to_light(cosine)));
-      length += normal.z;
-    }
-    received /= kNormals, length /= kNormals;
-    EXPECT_NEAR(bumpy_cosine(cosine, static_cast<float>(length)), received, 0.003) << cosine;
+  for (const float cosine : {0.05f, 0.0f, -0.05f, -0.15f}) {
+    const Received found(0.2f, cosine);
+    EXPECT_NEAR(bumpy_cosine(cosine, found.length), found.mean, 0.003) << cosine;
   }
 }
 

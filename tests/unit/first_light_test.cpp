@@ -28,6 +28,15 @@ Scene unlit(const std::string& name) {
   return scene;
 }
 
+/// Clear glass.
+Material clear_pane() {
+  Material pane;
+  pane.metallic = 0.0f;
+  pane.roughness = 0.0f;
+  pane.transmission = 1.0f;
+  return pane;
+}
+
 TEST(FirstLight, IsTheScenesWhereItHasOne) {
   Scene lit = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
   lit.lights.emplace_back();
@@ -110,11 +119,7 @@ TEST(FirstLight, IsASkyWhereTheSunShinesIntoRooms) {
   // Its light is on the wall, even where the window is behind the camera
   EXPECT_EQ(choose_first_light(World(room), to_wall), FirstLight::sky);
   test::add(room, test::quad({-3, 1, 3}, {6, 0, 0}, {0, 1.2f, 0}, 1));
-  Material pane;
-  pane.metallic = 0.0f;
-  pane.roughness = 0.0f;
-  pane.transmission = 1.0f;
-  room.materials.push_back(pane);
+  room.materials.push_back(clear_pane());
   EXPECT_EQ(choose_first_light(World(room), to_window), FirstLight::sky);
   room.materials.back().transmission = 0.0f;
   EXPECT_EQ(choose_first_light(World(room), to_window), FirstLight::scene);
@@ -132,11 +137,7 @@ TEST(FirstLight, IsTheSunsUnderSkylightsWithAndWithoutPanes) {
   const Camera camera = look_at({4, 1.6f, 4}, {-2, 1.0f, -2}, 1.0f);
   EXPECT_EQ(choose_first_light(World(hall), camera), FirstLight::sun);
   test::add(hall, test::quad({-1.5f, 4.05f, -1.5f}, {3, 0, 0}, {0, 0, 3}, 1));
-  Material pane;
-  pane.metallic = 0.0f;
-  pane.roughness = 0.0f;
-  pane.transmission = 1.0f;
-  hall.materials.push_back(pane);
+  hall.materials.push_back(clear_pane());
   EXPECT_EQ(choose_first_light(World(hall), camera), FirstLight::sun);
   hall.materials.back().transmission = 0.0f;
   EXPECT_EQ(choose_first_light(World(hall), camera), FirstLight::lamps);

@@ -46,7 +46,7 @@ struct ConnectionContext {
   std::uint32_t session_clients = 0;  // number of clients so far
   std::size_t connections = 0;
   // In the order in which they came, a WebSocket from its handshake on
-  std::vector<std::weak_ptr<OpenConnection>> open;
+  std::vector<std::weak_ptr<OpenConnection>> open_connections;
   boost::asio::io_context io{1};  // last: its connections must be destroyed before everything else
 
   /// Records a message of a client if a session is recorded; none: the client has left.

@@ -26,7 +26,7 @@ class HttpConnection : public OpenConnection, public std::enable_shared_from_thi
       : context_(context), count_(context), stream_(std::move(stream)), buffer_(kMaxHeaderBytes) {}
 
   void start() {
-    context_.open.push_back(weak_from_this());
+    context_.open_connections.push_back(weak_from_this());
     stream_.expires_after(context_.settings.hello_timeout);
     stream_.async_handshake(boost::beast::role_type::server,
                             [self = shared_from_this()](ErrorCode error) {

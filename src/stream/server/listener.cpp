@@ -111,7 +111,7 @@ class BeastListener : public Listener {
       ErrorCode ignored;
       acceptor_.close(ignored);
       ending_ = Clock::now() + kDrainTimeout;
-      for (const auto& weak : context_.open) {
+      for (const auto& weak : context_.open_connections) {
         if (const auto connection = weak.lock()) {
           connection->refuse({Refusal::Code::shutting_down, "the server ends"});
         }
@@ -162,7 +162,7 @@ class BeastListener : public Listener {
     if (context_.connections >= context_.settings.max_connections) {
       context_.count_refused();
       // The connection that has waited longest without asking for anything gives way
-      const bool has_room = std::ranges::any_of(context_.open, [](const auto& weak) {
+      const bool has_room = std::ranges::any_of(context_.open_connections, [](const auto& weak) {
         const auto connection = weak.lock();
         return connection && connection->give_way();
       });
@@ -176,7 +176,7 @@ class BeastListener : public Listener {
 
   /// Checks deadlines and tokens, and completes `drain`.
   void tick() {
-    std::erase_if(context_.open, [](const auto& weak) { return weak.expired(); });
+    std::erase_if(context_.open_connections, [](const auto& weak) { return weak.expired(); });
     if (ending_ && (context_.connections == 0 || Clock::now() > *ending_)) {
       context_.io.stop();
       return;
@@ -184,7 +184,7 @@ class BeastListener : public Listener {
     if (const auto fresh = context_.access.refresh(); !fresh) {
       context_.settings.log("no token is good now: " + fresh.error().message());
     }
-    for (const auto& weak : context_.open) {
+    for (const auto& weak : context_.open_connections) {
       if (const auto connection = weak.lock()) connection->tick();
     }
     timer_.expires_after(ending_ ? kTick / 10 : kTick);

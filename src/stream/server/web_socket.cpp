@@ -32,7 +32,7 @@ class WebSocket : public OpenConnection, public std::enable_shared_from_this<Web
 
   void accept(const WebSocketRequest& request) {
     namespace websocket = boost::beast::websocket;
-    context_.open.push_back(weak_from_this());
+    context_.open_connections.push_back(weak_from_this());
     // From here on, the WebSocket has its own timeouts
     socket_.next_layer().expires_never();
     websocket::stream_base::timeout timeouts{};
