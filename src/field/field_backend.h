@@ -116,9 +116,6 @@ class FieldBackend {
   /// Computes the irradiance that some probes receive from the field's light. Texels for which no
   /// ray counts keep their value in `received`.
   virtual void receive(std::span<const int> probes, WorkingIrradiance& received) = 0;
-  /// Luminance of the direct and sky light that each probe receives, summed over its rays
-  /// (processor) or texels (device).
-  virtual std::vector<double> direct_light(std::span<const int> probes) = 0;
   /// Encodes the light of some probes into the store.
   virtual void store_light(std::span<const int> probes, uint dither_seed) = 0;
 

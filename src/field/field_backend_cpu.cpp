@@ -242,11 +242,6 @@ class FieldBackendCpu final : public FieldBackend {
     data_.transport(probes).apply(data_.light, received, received);
   }
 
-  std::vector<double> direct_light(std::span<const int> probes) override {
-    assert(data_.share.alone());
-    return direct_light_of(data_.traces, probes);
-  }
-
   void store_light(std::span<const int> probes, uint dither_seed) override {
     store_irradiance(probes, dither_seed, data_);
   }

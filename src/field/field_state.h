@@ -108,11 +108,10 @@ struct IrradianceField::State {
   double apply_edits_in_slices(const World& world, const EditBudget& budget, StaleProbes& stale,
                                UpdateStatistics& statistics);
   /// Brings one slice of the stale probes up to date. `all` are all traced probes. Reduces their
-  /// history ratios, and returns the history_share() of each.
-  std::vector<float> apply_edits_to_slice(const World& world, std::span<const WorldChanges> changes,
-                                          std::span<const int> probes, std::span<const int> all,
-                                          WorkingIrradiance& history_ratio,
-                                          UpdateStatistics& statistics);
+  /// history ratios, and returns what the edits find of each.
+  ProbesAtEdit apply_edits_to_slice(const World& world, std::span<const WorldChanges> changes,
+                                    std::span<const int> probes, std::span<const int> all,
+                                    WorkingIrradiance& history_ratio, UpdateStatistics& statistics);
   /// Reduces the weight of averages and corrections whose light the pending edits changed.
   void reduce_history();
   void forget_corrections(EditProgress progress);

@@ -121,7 +121,7 @@ float side_inset(const World& world, const SolidSides& sides, bool room, const B
 }  // namespace
 
 Bounds open_bounds(const World& world, std::optional<glm::vec3> viewer_ws) {
-  const Subject subject = find_subject(world);
+  const Subject subject = viewer_ws ? find_subject_near(world, *viewer_ws) : find_subject(world);
   const Bounds bounds = subject.site;
   if (bounds.empty()) return bounds;
   const bool room = is_room(world, subject);

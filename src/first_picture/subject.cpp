@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "raytracing/boxes.h"
 #include "raytracing/trace_rays.h"
 
 namespace lambent {
@@ -197,6 +198,43 @@ Subject find_subject_among(const World& world, std::span<const Bounds> boxes,
   return subject;
 }
 
+/// The bounds of all instances; empty where one has no surface.
+std::vector<Bounds> instance_boxes(const World& world) {
+  std::vector<Bounds> boxes(world.scene().instances.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    boxes[i] = world.instance_bounds(static_cast<int>(i));
+  }
+  return boxes;
+}
+
+/// The instances that have a surface.
+std::vector<std::uint32_t> visible_instances(std::span<const Bounds> boxes) {
+  std::vector<std::uint32_t> instances;
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+    if (!boxes[i].empty()) instances.push_back(i);
+  }
+  return instances;
+}
+
+/// The subject among the instances `all`, with panels of light or without.
+Subject find_subject_in_light(const World& world, std::span<const Bounds> boxes,
+                              const std::vector<std::uint32_t>& all) {
+  Subject subject = find_subject_among(world, boxes, all);
+  std::vector<std::uint32_t> others = all;
+  std::erase_if(others, [&](std::uint32_t i) { return is_panel_of_light(world.scene(), i); });
+  if (others.size() == all.size()) return subject;
+  // Panels of light that keep a backdrop from being found hang around what stands before it
+  const std::size_t dropped = all.size() - subject.instances.size();
+  const std::size_t count_without = others.size();
+  Subject without = find_subject_among(world, boxes, std::move(others));
+  const bool any = !without.instances.empty();
+  if (any && count_without - without.instances.size() > dropped) {
+    subject.instances = std::move(without.instances);
+    subject.bounds = without.bounds;
+  }
+  return subject;
+}
+
 }  // namespace
 
 Middle find_middle(const Scene& scene, std::span<const Bounds> boxes,
@@ -214,30 +252,23 @@ Middle find_middle(const Scene& scene, std::span<const Bounds> boxes,
 }
 
 Subject find_subject(const World& world) {
-  const Scene& scene = world.scene();
-  std::vector<Bounds> boxes(scene.instances.size());
-  std::vector<std::uint32_t> all, others;
-  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-    boxes[i] = world.instance_bounds(static_cast<int>(i));
-    if (boxes[i].empty()) continue;
-    all.push_back(i);
-    if (!is_panel_of_light(scene, i)) others.push_back(i);
+  const std::vector<Bounds> boxes = instance_boxes(world);
+  return find_subject_in_light(world, boxes, visible_instances(boxes));
+}
+
+Subject find_subject_near(const World& world, const glm::vec3& viewer_ws) {
+  const std::vector<Bounds> boxes = instance_boxes(world);
+  const Bounds viewer{viewer_ws, viewer_ws};
+  std::vector<std::uint32_t> left = visible_instances(boxes);
+  while (true) {
+    Subject subject = find_subject_in_light(world, boxes, left);
+    const float away = distance_between(subject.site, viewer);
+    std::erase_if(left, [&](std::uint32_t i) { return overlap(boxes[i], subject.site); });
+    const bool is_nearest = std::none_of(left.begin(), left.end(), [&](std::uint32_t i) {
+      return distance_between(boxes[i], viewer) < away;
+    });
+    if (is_nearest) return subject;
   }
-  const std::size_t count = all.size();
-  const bool panels = others.size() < count;
-  Subject subject = find_subject_among(world, boxes, std::move(all));
-  // Panels of light that keep a backdrop from being found hang around what stands before it
-  if (panels) {
-    const std::size_t dropped = count - subject.instances.size();
-    const std::size_t count_without = others.size();
-    Subject without = find_subject_among(world, boxes, std::move(others));
-    const bool any = !without.instances.empty();
-    if (any && count_without - without.instances.size() > dropped) {
-      subject.instances = std::move(without.instances);
-      subject.bounds = without.bounds;
-    }
-  }
-  return subject;
 }
 
 }  // namespace lambent

@@ -208,7 +208,7 @@ TEST_F(FieldPasses, LightIsCarriedAsOnTheProcessor) {
     const vulkan::Buffer fallback =
         vulkan::upload<vec4>(device(), in_list(list, light, update->tile_texels()), "fallback");
     const vulkan::Buffer out(device(), light.size() * sizeof(vec4), vulkan::Memory::device, "out");
-    for (const uint mode : {kGatherAll, kGatherDirect, kGatherSky}) {
+    for (const uint mode : {kGatherAll, kGatherSky}) {
       device().run([&](vulkan::Recorder& to) {
         field.record_transport(to, list,
                                {{in.address()}, {fallback.address()}, {}, {out.address()}, mode});
@@ -216,13 +216,45 @@ TEST_F(FieldPasses, LightIsCarriedAsOnTheProcessor) {
       const WorkingIrradiance received =
           in_order(list, download_light(out, light.size()), update->tile_texels());
       if (mode == kGatherAll) update->transport().apply(light, light, expected);
-      if (mode == kGatherDirect) update->transport().apply_direct(light, expected);
       if (mode == kGatherSky) update->transport().apply_sky(light, expected);
       // The sums of some hundred products are in another order
       const double far =
           norm(expected) > 0.0 ? relative_distance(received, expected) : norm(received);
       EXPECT_LE(far, 1e-5) << mode;
     }
+  }
+}
+
+TEST_F(FieldPasses, LightBeforeAnEditIsComparedAsOnTheProcessor) {
+  const UpdateOnCpu& update = one_volume();
+  FieldResources field = put(update);
+  std::vector<ProbeTrace> edited = update.traces;
+  for (ProbeTrace& trace : edited) {
+    for (std::size_t i = 0; i < trace.surfels.size(); i += 3) trace.surfels[i].light *= 5.0f;
+  }
+  const DeviceProbes list = field.list(update.all);
+  device().run([&](vulkan::Recorder& to) { field.record_rays_before(to, list); });
+  field.write_surfels(update.all, edited);
+  const vulkan::Buffer found(device(), update.all.size() * sizeof(EditedLight),
+                             vulkan::Memory::readback, "edited light");
+  device().run(
+      [&](vulkan::Recorder& to) { field.record_edited_light(to, list, {found.address()}); });
+  const auto light_along = [](const Surfel& surfel) {
+    return ray_light(static_cast<uint>(surfel.kind), surfel.albedo_over_pi, surfel.light);
+  };
+  for (std::size_t k = 0; k < update.all.size(); ++k) {
+    EditedLight expected{};
+    for (std::size_t i = 0; i < edited[k].surfels.size(); ++i) {
+      expected = add_ray(expected, light_along(update.traces[k].surfels[i]),
+                         light_along(edited[k].surfels[i]));
+    }
+    const EditedLight there = found.as<EditedLight>()[list.position[k]];
+    EXPECT_EQ(there.rays, expected.rays);
+    EXPECT_FLOAT_EQ(there.before, expected.before);
+    EXPECT_FLOAT_EQ(there.after, expected.after);
+    EXPECT_FLOAT_EQ(there.before_squares, expected.before_squares);
+    EXPECT_FLOAT_EQ(there.after_squares, expected.after_squares);
+    EXPECT_FLOAT_EQ(there.products, expected.products);
   }
 }
 

@@ -271,9 +271,6 @@ TEST(HistoryShare, IsThatOfTheLightThatWasThere) {
   EXPECT_EQ(history_share({0.0f, 0.0f, 0.1f}, mean), 0.0f);
   // No light anywhere
   EXPECT_EQ(history_share({0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}), 1.0f);
-  // Averages that start anew stay so
-  EXPECT_EQ(samples_after_edit(0.0f, 1.0f), 0.0f);
-  EXPECT_EQ(samples_after_edit(8.0f, 0.0f), 1.0f);
 }
 
 TEST(ProbesInAPlane, LightBothSidesOfASheet) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "lambent/field.h"
 #include "lambent/world.h"
@@ -51,6 +52,20 @@ TEST(OpenBounds, ReachOutOfTheWallsThatAViewerFaces) {
     if (axis != 0) {
       EXPECT_NEAR(open.max[axis], kInside, 1e-3f) << axis;
     }
+  }
+}
+
+// The statue has most of the scene's triangles, so that the room is taken for a stray.
+TEST(OpenBounds, AreThoseOfTheRoomThatAViewerStandsInHoweverFarItIsFromTheRest) {
+  constexpr float kAway = 200.0f;
+  Scene scene = room();
+  test::add(scene, test::sphere(0.5f, 12, 0), glm::translate(glm::mat4(1.0f), vec3(kAway)));
+  const World world(scene);
+  const Bounds statue = open_bounds(world), around = open_bounds(world, vec3(1.0f, 0.0f, -2.0f));
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_GT(statue.min[axis], kAway / 2.0f);
+    EXPECT_NEAR(around.min[axis], -kInside, 1e-3f);
+    EXPECT_NEAR(around.max[axis], kInside, 1e-3f);
   }
 }
 

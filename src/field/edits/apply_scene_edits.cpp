@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 #include "core/pass_times.h"
@@ -69,10 +68,12 @@ std::vector<float> reduce_history(const PendingEdits& pending, const WorkingIrra
     const TileLight held(&pending.before[probe * texels], texels),
         found(&light[probe * texels], texels);
     if (relative_square(held, found) < kChangedFraction * kChangedFraction) continue;
-    // The more the distribution of the light changed, the fewer samples the average counts as
-    const float kept = likeness(found, held) * pending.history_shares[probe];
+    // The more the distribution of the light changed, the less corrections learnt of it count
+    const float share = pending.found.history_shares[probe], kept = likeness(found, held) * share;
     counts[probe] = kept * kept;
-    statuses[probe].samples = samples_after_edit(statuses[probe].samples, kept);
+    const EstimateVariance variance =
+        estimate_variance(pending.found.light[probe], mean_luminance(held));
+    statuses[probe].samples = samples_after_edit(statuses[probe].samples, variance, share);
     scheduler.mark_changed(probe);
   }
   return counts;
@@ -82,15 +83,14 @@ std::vector<float> reduce_history(const PendingEdits& pending, const WorkingIrra
 
 /// Brings one slice of the probes up to date. Scales their light by the ratio of direct light after
 /// the edits to that before them, which gives the solve a good start.
-std::vector<float> IrradianceField::State::apply_edits_to_slice(
+ProbesAtEdit IrradianceField::State::apply_edits_to_slice(
     const World& world, std::span<const WorldChanges> changes, std::span<const int> probes,
     std::span<const int> all, WorkingIrradiance& history_ratio, UpdateStatistics& statistics) {
   PassTimer watch(statistics.passes);
-  const std::vector<double> direct_before = backend->direct_light(probes);
   const bool shapes_differ = std::any_of(changes.begin(), changes.end(),
                                          [](const WorldChanges& c) { return !c.moved.empty(); });
   if (shapes_differ) statistics.shadow_rays += update_cell_visibility(world, probes);
-  const InvalidationResult result = backend->retrace(world, changes, probes, all, dither_seed());
+  InvalidationResult result = backend->retrace(world, changes, probes, all, dither_seed());
   statistics.probe_rays += result.probe_rays;
   statistics.shadow_rays += result.shadow_rays;
   statistics.probes_invalidated += static_cast<int>(probes.size());
@@ -100,20 +100,22 @@ std::vector<float> IrradianceField::State::apply_edits_to_slice(
     counted += pass.ms;
   }
 
-  const std::vector<double> direct_after = backend->direct_light(probes);
-  const double before = std::accumulate(direct_before.begin(), direct_before.end(), 0.0);
-  const double after = std::accumulate(direct_after.begin(), direct_after.end(), 0.0);
+  double before = 0.0, after = 0.0;
+  for (const EditedLight& light : result.light) {
+    before += light.before;
+    after += light.after;
+  }
   edits.pending.direct_light += after;
   const float brighter = direct_growth(static_cast<float>(before), static_cast<float>(after));
   const auto texels = static_cast<std::size_t>(data.tile_texels());
-  const std::vector<ProbeAtEdit> found = probes_at_edit(probes, data, direct_before, direct_after);
+  ProbesAtEdit found{reduce_history_ratios(probes, data, result.light, history_ratio),
+                     std::move(result.light)};
   for (const int probe : probes) {
     statuses[probe].revision = world.revision();
     for (std::size_t t = 0; t < texels; ++t) data.light[probe * texels + t] *= brighter;
   }
-  std::vector<float> shares = reduce_history_ratios(found, history_ratio);
   watch.finish(field_pass::kEdits, counted);
-  return shares;
+  return found;
 }
 
 void IrradianceField::State::apply_edits_to_sleeping(const World& world, const EditBudget& budget,
@@ -257,7 +259,8 @@ void IrradianceField::State::begin_edits(std::uint64_t revision, std::span<const
   }
   edits.pending.before = data.light;
   edits.pending.history_ratio.resize(data.light.size());
-  edits.pending.history_shares.assign(statuses.size(), 1.0f);
+  edits.pending.found.history_shares.resize(statuses.size());
+  edits.pending.found.light.resize(statuses.size());
   edits.pending.updated.clear();
   edits.pending.revision = revision;
 }
@@ -283,13 +286,14 @@ double IrradianceField::State::apply_edits_in_slices(const World& world, const E
     const std::vector<WorldChanges> changes = *world.changes_since(slice.oldest);
     WorkingIrradiance history_ratio = history_ratio_of(slice.probes, data);
     watch.finish(field_pass::kSolve);
-    const std::vector<float> shares =
+    const ProbesAtEdit found =
         apply_edits_to_slice(world, changes, slice.probes, stale.traced, history_ratio, statistics);
     watch.skip();
     for (std::size_t k = 0; k < slice.probes.size(); ++k) {
       const auto probe = static_cast<std::size_t>(slice.probes[k]);
       std::copy_n(&history_ratio[k * texels], texels, &edits.pending.history_ratio[probe * texels]);
-      edits.pending.history_shares[probe] = shares[k];
+      edits.pending.found.history_shares[probe] = found.history_shares[k];
+      edits.pending.found.light[probe] = found.light[k];
     }
     stale.waiting.erase(stale.waiting.begin(),
                         stale.waiting.begin() + static_cast<std::ptrdiff_t>(slice.probes.size()));

@@ -34,31 +34,20 @@ DeviceHistory::DeviceHistory(FieldResources& field, DeviceSolver& solver, const 
   light_before_ = tiles("light before edits");
   estimate_ = tiles("estimates before edits");
   history_ratio_ = tiles("history ratios");
-  direct_before_ = tiles("direct light before edits");
-  direct_after_ = tiles("direct light after edits");
-  light_sums_ = Buffer(device, 3 * sizeof(float), Memory::device, "light by edits");
+  edited_light_ = Buffer(device, count * sizeof(EditedLight), Memory::device, "edited light");
+  mean_probe_ = Buffer(device, sizeof(ProbeAtEdit), Memory::device, "mean probe at edits");
   history_shares_ = Buffer(device, count * sizeof(float), Memory::device, "shares of history");
   changed_ = Buffer(device, count * sizeof(uint), Memory::device, "probes changed by edits");
-  field.reserve_distances_before(largest);
+  field.reserve_rays_before(largest);
 }
 
 std::size_t DeviceHistory::bytes() const {
-  return bytes_of({&light_before_, &estimate_, &history_ratio_, &direct_before_, &direct_after_,
-                   &light_sums_, &history_shares_, &changed_});
-}
-
-/// Records the computation of the direct light that a list's probes receive. Texels for which no
-/// ray counts have none.
-void DeviceHistory::record_direct_light(Recorder& to, const DeviceProbes& list,
-                                        const Buffer& direct) const {
-  to.fill(direct, 0u);
-  to.barrier();
-  const Vec4Array found = {direct.address()};
-  field_.record_transport(to, list, {{field_.light().address()}, found, {}, found, kGatherDirect});
+  return bytes_of({&light_before_, &estimate_, &history_ratio_, &edited_light_, &mean_probe_,
+                   &history_shares_, &changed_});
 }
 
 void DeviceHistory::record_before(Recorder& to, const DeviceProbes& list) {
-  field_.record_distances_before(to, list);
+  field_.record_rays_before(to, list);
   const Vec4Array light = {field_.light().address()};
   const Vec4Array last_estimate = {field_.last_irradiance_estimate().address()};
   const Vec4Array estimate = {estimate_.address()};
@@ -74,17 +63,15 @@ void DeviceHistory::record_before(Recorder& to, const DeviceProbes& list) {
       0};
   field_.run_over(to, history_ratio_kernel_, ratio, list, kOverTexels);
   to.barrier();
-  record_direct_light(to, list, direct_before_);
 }
 
 void DeviceHistory::record_solve(Recorder& to, const DeviceProbes& list,
                                  const Buffer& blend_weights) {
-  record_direct_light(to, list, direct_after_);
+  field_.record_edited_light(to, list, {edited_light_.address()});
   ScaleLightArguments scale = {list.index_array(),
                                {field_.light().address()},
-                               {direct_before_.address()},
-                               {direct_after_.address()},
-                               {light_sums_.address()},
+                               {edited_light_.address()},
+                               {mean_probe_.address()},
                                {history_ratio_.address()},
                                {history_shares_.address()},
                                list.count(),
@@ -107,6 +94,7 @@ void DeviceHistory::record_keep(Recorder& to, const DeviceProbes& list) const {
                                             {solver_.solution().address()},
                                             {history_ratio_.address()},
                                             {history_shares_.address()},
+                                            {edited_light_.address()},
                                             changed(),
                                             list.count(),
                                             0};

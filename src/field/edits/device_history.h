@@ -18,8 +18,8 @@ class DeviceHistory {
   // Passes, in this order. What they read must be visible before them, and what they write is
   // visible after them.
 
-  /// Records the computation of the history ratios of a list's probes and of the distances of their
-  /// rays. Light and surfels must still be those from before the edits.
+  /// Records the computation of the history ratios of a list's probes, and of the distances and the
+  /// direct light along their rays. Light and surfels must still be those from before the edits.
   void record_before(vulkan::Recorder& to, const DeviceProbes& list);
   /// Records the solve for the light of the list's probes after the edits, once their surfels and
   /// lookups are up to date. `blend_weights` are 1.
@@ -34,16 +34,13 @@ class DeviceHistory {
   std::size_t bytes() const;
 
  private:
-  void record_direct_light(vulkan::Recorder& to, const DeviceProbes& list,
-                           const vulkan::Buffer& direct) const;
-
   FieldResources& field_;
   DeviceSolver& solver_;
   ProbeStates probes_;
   vulkan::Kernel gather_tiles_, history_ratio_kernel_, scale_light_, keep_unchanged_;
   // Entries of the list's probes
-  vulkan::Buffer light_before_, estimate_, history_ratio_, direct_before_, direct_after_;
-  vulkan::Buffer light_sums_, history_shares_, changed_;
+  vulkan::Buffer light_before_, estimate_, history_ratio_, edited_light_;
+  vulkan::Buffer mean_probe_, history_shares_, changed_;
 };
 
 }  // namespace lambent

@@ -40,8 +40,9 @@ struct HistoryRatioArguments {
 };
 
 // The steps of scale_light.
-const uint kSumLight = 0u;  ///< One workgroup computes `sums`.
-/// Scales the list's light by their ratio, and reduces history ratios, one lane per probe.
+const uint kSumLight = 0u;  ///< One workgroup computes `mean`.
+/// Scales the list's light by the growth of direct light, and reduces history ratios, one lane
+/// per probe.
 const uint kScaleLight = 1u;
 
 // The lanes of scale_light's workgroups.
@@ -51,10 +52,8 @@ const int kSumLightLanes = 256;
 struct ScaleLightArguments {
   IntArray list;
   Vec4Array light;            ///< Of all probes.
-  Vec4Array direct_before;    ///< Direct light that the list's probes received before the edit.
-  Vec4Array direct_after;     ///< Direct light that the list's probes receive after the edit.
-  FloatArray sums;            ///< Luminance of all texels: of `light`, and of direct light before
-                              ///< and after.
+  EditedLightArray edited;    ///< Of the list's probes.
+  Vec3Array mean;             ///< One ProbeAtEdit, the mean of the list's.
   Vec4Array history_ratio;    ///< Of the list.
   FloatArray history_shares;  ///< history_share() of each of the list's probes.
   int count;
@@ -71,7 +70,8 @@ struct KeepUnchangedArguments {
   Vec4Array light_before;
   Vec4Array solution;
   Vec4Array history_ratio;
-  FloatArray history_shares;  ///< One word per probe of the list.
+  FloatArray history_shares;  ///< history_share() of each of the list's probes.
+  EditedLightArray edited;    ///< Of the list's probes.
   UintArray changed;  ///< One word per probe of the list: 1 where its light changed, else 0.
   int count;
   int unused;

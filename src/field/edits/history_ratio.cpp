@@ -18,35 +18,26 @@ WorkingIrradiance history_ratio_of(std::span<const int> probes, const ProbeData&
   return history_ratio;
 }
 
-std::vector<ProbeAtEdit> probes_at_edit(std::span<const int> probes, const ProbeData& data,
-                                        std::span<const double> direct_before,
-                                        std::span<const double> direct_after) {
-  const auto texels = static_cast<std::size_t>(data.tile_texels());
-  std::vector<ProbeAtEdit> found;
-  for (std::size_t k = 0; k < probes.size(); ++k) {
-    const TileLight light(&data.light[probes[k] * texels], texels);
-    found.push_back({mean_luminance(light), static_cast<float>(direct_before[k]),
-                     static_cast<float>(direct_after[k])});
-  }
-  return found;
-}
-
-std::vector<float> reduce_history_ratios(std::span<const ProbeAtEdit> probes,
+std::vector<float> reduce_history_ratios(std::span<const int> probes, const ProbeData& data,
+                                         std::span<const EditedLight> light,
                                          WorkingIrradiance& history_ratio) {
   if (probes.empty()) return {};
+  const auto texels = static_cast<std::size_t>(data.tile_texels());
+  std::vector<ProbeAtEdit> found;
   double held = 0.0, before = 0.0, after = 0.0;
-  for (const ProbeAtEdit& probe : probes) {
-    held += probe.held;
-    before += probe.direct_before;
-    after += probe.direct_after;
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    const TileLight tile(&data.light[probes[k] * texels], texels);
+    found.push_back(probe_at_edit(light[k], mean_luminance(tile)));
+    held += found[k].held;
+    before += found[k].direct_before;
+    after += found[k].direct_after;
   }
   const auto count = static_cast<double>(probes.size());
   const ProbeAtEdit mean = {static_cast<float>(held / count), static_cast<float>(before / count),
                             static_cast<float>(after / count)};
   std::vector<float> shares(probes.size());
-  const std::size_t texels = history_ratio.size() / probes.size();
   for (std::size_t k = 0; k < probes.size(); ++k) {
-    shares[k] = history_share(probes[k], mean);
+    shares[k] = history_share(found[k], mean);
     for (std::size_t t = 0; t < texels; ++t) {
       vec4& ratio = history_ratio[k * texels + t];
       ratio = reduce_history_ratio(ratio, shares[k]);

@@ -15,15 +15,11 @@ namespace lambent {
 /// The ratio of the light that some probes hold to the light that their last rays estimate, texel
 /// by texel.
 WorkingIrradiance history_ratio_of(std::span<const int> probes, const ProbeData& data);
-/// What an edit finds of some probes that still hold the light before it. `direct_before`,
-/// `direct_after`: of each, see FieldBackend::direct_light().
-std::vector<ProbeAtEdit> probes_at_edit(std::span<const int> probes, const ProbeData& data,
-                                        std::span<const double> direct_before,
-                                        std::span<const double> direct_after);
-/// Reduces the history ratios of some probes where an edit made their direct light much brighter,
-/// see history_share(), given what it finds of each; the mean probe is that of these. Returns that
-/// share of each.
-std::vector<float> reduce_history_ratios(std::span<const ProbeAtEdit> probes,
+/// Reduces the history ratios of some probes, which still hold the light before an edit, where it
+/// made their direct light much brighter, given the light along the rays of each. Returns the
+/// history_share() of each, where the mean probe is that of these.
+std::vector<float> reduce_history_ratios(std::span<const int> probes, const ProbeData& data,
+                                         std::span<const EditedLight> light,
                                          WorkingIrradiance& history_ratio);
 /// Stores the light that the last rays of some probes estimate: the solution of a solve without
 /// history ratio.

@@ -5,6 +5,7 @@
 #ifndef LAMBENT_FIELD_EDITS_HISTORY_RATIO_MATH_H
 #define LAMBENT_FIELD_EDITS_HISTORY_RATIO_MATH_H
 
+#include "field/edits/edited_light_math.h"
 #include "field/probes/tile_light_math.h"
 
 LAMBENT_BEGIN
@@ -51,13 +52,17 @@ LAMBENT_FN float direct_growth(float before, float after) {
   return before > 0.0f ? after / before : 1.0f;
 }
 
-/// Luminances that an edit finds at a probe, or at the mean one. Only ratios between probes matter:
-/// the first is a mean or a sum over texels, the others are sums over texels or rays.
+/// Luminances that an edit finds at a probe, or at the mean one.
 struct ProbeAtEdit {
-  float held;           ///< Of the light that it holds before the edit.
-  float direct_before;  ///< Of the direct light that it receives before the edit.
-  float direct_after;   ///< Of the direct light that it receives after the edit.
+  float held;           ///< Of the irradiance that it holds before the edit, a mean over texels.
+  float direct_before;  ///< Of the direct light along its rays before the edit, a mean.
+  float direct_after;   ///< Of that after the edit.
 };
+
+LAMBENT_FN ProbeAtEdit probe_at_edit(EditedLight sums, float held) {
+  float rays = max(sums.rays, 1.0f);
+  return ProbeAtEdit(held, sums.before / rays, sums.after / rays);
+}
 
 /// The share of a probe's history that holds after an edit, 0 to 1.
 LAMBENT_FN float history_share(ProbeAtEdit own, ProbeAtEdit mean) {
@@ -69,13 +74,6 @@ LAMBENT_FN float history_share(ProbeAtEdit own, ProbeAtEdit mean) {
 
 LAMBENT_FN vec4 reduce_history_ratio(vec4 history_ratio, float share) {
   return vec4(1.0f) + share * (history_ratio - vec4(1.0f));
-}
-
-/// The number of samples that an average counts as after an edit changed its light. `likeness` is
-/// the similarity, as of likeness_of(), of the light after the edit to the light before it, times
-/// the history_share(). Averages that start anew stay so.
-LAMBENT_FN float samples_after_edit(float samples, float likeness) {
-  return max(samples * likeness * likeness, min(samples, 1.0f));
 }
 
 LAMBENT_END

@@ -235,6 +235,7 @@ struct Part {
   std::vector<OtherSurfaces> other_surfaces;
   std::vector<MovedProbe> moved;
   std::vector<RayDistance> seen;  // scratch
+  std::vector<float> lights;      // scratch
 };
 
 /// Stores the new distances of the moved probes.
@@ -262,15 +263,23 @@ void move_distances(const FieldSettings& settings, std::span<const MovedProbe> m
   });
 }
 
-/// The luminance of the direct and sky light along a probe's rays, averaged over the rays.
-double direct_light_of(const ProbeTrace& trace) {
-  double sum = 0.0;
-  for (const Surfel& surfel : trace.surfels) {
-    if (surfel.kind == SurfelKind::solid_side) continue;
-    const vec3 share = surfel.kind == SurfelKind::sky ? vec3(1.0f) : surfel.albedo_over_pi;
-    sum += luminance(share * surfel.light);
+float light_along_ray(const Surfel& surfel) {
+  return ray_light(static_cast<uint>(surfel.kind), surfel.albedo_over_pi, surfel.light);
+}
+
+/// Copies the direct light along a probe's rays.
+void ray_lights(const ProbeTrace& trace, std::vector<float>& lights) {
+  lights.clear();
+  for (const Surfel& surfel : trace.surfels) lights.push_back(light_along_ray(surfel));
+}
+
+/// Compares the direct light along a probe's rays with that before an edit.
+EditedLight compare_light(std::span<const float> before, const ProbeTrace& trace) {
+  EditedLight sums{};
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    sums = add_ray(sums, before[i], light_along_ray(trace.surfels[i]));
   }
-  return trace.surfels.empty() ? 0.0 : sum / static_cast<double>(trace.surfels.size());
+  return sums;
 }
 
 /// Recomputes lookups that may have changed: those of changed surfels, and those that read a probe
@@ -302,15 +311,6 @@ std::uint64_t renew_lookups(std::vector<OtherSurfaces> other_surfaces, std::span
 
 }  // namespace
 
-std::vector<double> direct_light_of(std::span<const ProbeTrace> traces,
-                                    std::span<const int> probes) {
-  std::vector<double> light(probes.size());
-  parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) light[k] = direct_light_of(traces[probes[k]]);
-  });
-  return light;
-}
-
 InvalidationResult invalidate_surfels(const World& world, const SolidSides& solid_sides,
                                       std::span<const WorldChanges> changes,
                                       const FieldSettings& settings, std::span<const int> probes,
@@ -320,6 +320,8 @@ InvalidationResult invalidate_surfels(const World& world, const SolidSides& soli
   const Edits edits(world, changes);
   const std::size_t tasks = (probes.size() + kProbesPerTask - 1) / kProbesPerTask;
   std::vector<Part> parts(tasks);
+  InvalidationResult result;
+  result.light.resize(probes.size());
   parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     Part& part = parts[begin / kProbesPerTask];
     SurfelInvalidation invalidation(world, solid_sides, edits, settings);
@@ -328,8 +330,10 @@ InvalidationResult invalidate_surfels(const World& world, const SolidSides& soli
       const vec3 origin = store.probe_position_ws(probe);
       // Materials that become mirrors, or no longer are, change distances by rounding
       ray_distances(traces[probe], origin, part.seen);
+      ray_lights(traces[probe], part.lights);
       const SurfelInvalidation::Outcome outcome =
           invalidation.update_probe(probe, origin, traces[probe]);
+      result.light[k] = compare_light(part.lights, traces[probe]);
       if (outcome.other_surfaces) part.other_surfaces.push_back({probe, invalidation.changed()});
       if (outcome.moved) part.moved.push_back({probe, part.seen});
     }
@@ -337,7 +341,6 @@ InvalidationResult invalidate_surfels(const World& world, const SolidSides& soli
     part.shadow_rays = invalidation.shadow_rays;
   });
 
-  InvalidationResult result;
   std::vector<MovedProbe> moved;
   std::vector<OtherSurfaces> other_surfaces;
   for (Part& part : parts) {

@@ -11,15 +11,12 @@
 #include <span>
 #include <vector>
 
+#include "field/edits/edited_light_math.h"
 #include "field/probes/probe_store.h"
 #include "field/transport/surfels.h"
 #include "lambent/world.h"
 
 namespace lambent {
-
-/// The luminance of the direct and sky light along each probe's rays, averaged over the rays.
-std::vector<double> direct_light_of(std::span<const ProbeTrace> traces,
-                                    std::span<const int> probes);
 
 /// The rays and times that bringing probes up to date took, and the probes that it changed.
 struct InvalidationResult {
@@ -27,7 +24,8 @@ struct InvalidationResult {
   std::uint64_t shadow_rays = 0;  ///< Shadow and visibility rays traced.
   std::vector<int>
       moved;  ///< Probes whose rays now have other distances, in the order of `probes`.
-  std::vector<PassTime> passes;  ///< A device's time for each pass; empty on the processor.
+  std::vector<EditedLight> light;  ///< Of each probe, in the order of `probes`.
+  std::vector<PassTime> passes;    ///< A device's time for each pass; empty on the processor.
 };
 
 /// Brings the surfels and stored distances of `probes`, which have been traced, up to date with the

@@ -7,10 +7,17 @@
 #include <limits>
 #include <vector>
 
+#include "field/edits/edited_light_math.h"
 #include "field/transport/anderson.h"
 #include "lambent/field.h"
 
 namespace lambent {
+
+/// What edits find of some probes, one entry for each of them.
+struct ProbesAtEdit {
+  std::vector<float> history_shares;  ///< The share of its history that holds (history_share()).
+  std::vector<EditedLight> light;     ///< The direct light along its rays.
+};
 
 /// Edits of the world that have been applied to some probes and not yet to others.
 struct PendingEdits {
@@ -20,10 +27,9 @@ struct PendingEdits {
   /// For each texel of the updated probes, the ratio of the averaged light to what the last rays
   /// alone estimated (history_ratio.cpp).
   WorkingIrradiance history_ratio;
-  /// For each of the field's probes, the share of its history that holds (history_share()).
-  std::vector<float> history_shares;
+  ProbesAtEdit found;         ///< Of all of the field's probes; only those of `updated` count.
   std::vector<int> updated;   ///< Probes to which the edits have been applied, in ascending order.
-  double direct_light = 0.0;  ///< Direct light that `updated` receive now, see direct_light_of().
+  double direct_light = 0.0;  ///< Sum of the direct light along all rays of `updated` now.
 };
 
 /// How far an update got with the edits of the world: no probe was stale, some stale probes are

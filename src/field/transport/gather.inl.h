@@ -33,11 +33,3 @@ LAMBENT_FN vec4 read_field(FieldRef field, SurfelLookupRef lookup) {
   }
   return sum;
 }
-
-/// The radiance that a surfel sends along its ray. If `reflects`, a surface sends the light that
-/// arrives, times its reflectance, and else nothing; the sky sends its radiance unchanged. The
-/// fourth channel is 1 for rays that count, else 0.
-LAMBENT_FN vec4 sent_radiance(uint kind, vec3 albedo_over_pi, vec3 arrives, bool reflects) {
-  vec3 reflectance = kind == kSurfelSky ? vec3(1.0f) : reflects ? albedo_over_pi : vec3(0.0f);
-  return vec4(reflectance * arrives, kind == kSurfelSolidSide ? 0.0f : 1.0f);
-}

@@ -58,5 +58,13 @@ LAMBENT_FN vec3 surfel_viewer(float mirror_distance, vec3 normal_ws, vec3 ray_di
   return mirror_distance > 0.0f ? normal_ws : -ray_direction;
 }
 
+/// The radiance that a surfel sends along its ray. If `reflects`, a surface sends the light that
+/// arrives, times its reflectance, and else nothing; the sky sends its radiance unchanged. The
+/// fourth channel is 1 for rays that count, else 0.
+LAMBENT_FN vec4 sent_radiance(uint kind, vec3 albedo_over_pi, vec3 arrives, bool reflects) {
+  vec3 reflectance = kind == kSurfelSky ? vec3(1.0f) : reflects ? albedo_over_pi : vec3(0.0f);
+  return vec4(reflectance * arrives, kind == kSurfelSolidSide ? 0.0f : 1.0f);
+}
+
 LAMBENT_END
 #endif

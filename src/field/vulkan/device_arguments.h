@@ -92,6 +92,22 @@ struct SurfelDistancesArguments {
   int distance_stride;
 };
 
+// The steps of edited_light.
+const uint kKeepLight = 0u;     ///< Stores `light_before`.
+const uint kCompareLight = 1u;  ///< Computes `edited`.
+
+/// Arguments of edited_light, which compares direct light along rays before and after an edit.
+struct EditedLightArguments {
+  ProbeList list;
+  SurfelArray surfels;
+  FloatArray light_before;  ///< Of the list's rays.
+  EditedLightArray edited;  ///< Of the list's probes.
+  int count;
+  int stride;      ///< Surfels per probe.
+  int ray_stride;  ///< Rays per probe of `light_before`.
+  uint step;
+};
+
 /// Arguments of move_distances, which shifts stored moments by the change in the rays' moments.
 struct MoveDistancesArguments {
   StoreArrays store;
@@ -256,10 +272,9 @@ struct ReadLookupsArguments {
   int count;
 };
 
-// The light that rays gather: all of it, direct and sky light only, or sky light only.
+// The light that rays gather: all of it, or sky light only.
 const uint kGatherAll = 0u;
-const uint kGatherDirect = 1u;
-const uint kGatherSky = 2u;
+const uint kGatherSky = 1u;
 
 /// Arguments of gather, which gathers radiance along rays. `field` has the texels of all probes,
 /// and `radiance` has `radiance_stride` entries per probe of the list.

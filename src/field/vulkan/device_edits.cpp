@@ -24,17 +24,38 @@ void FieldResources::record_seen_surfels(vulkan::Recorder& to, const DeviceProbe
   record_surfel_distances(to, list, {ray_distances_.address()}, {blocked_.address()});
 }
 
-void FieldResources::reserve_distances_before(const DeviceProbes& list) {
+void FieldResources::reserve_rays_before(const DeviceProbes& list) {
   const auto count = static_cast<std::size_t>(list.count());
   const int stride = round_up(list.most_rays, kLaneGroupSize);
   reserve_seen(list);
   reserve<float>(device_, count * stride, "distances of rays before", ray_distances_before_);
   reserve<uint>(device_, count, "probes in solid matter before", blocked_before_);
+  reserve<float>(device_, count * stride, "direct light along rays before", ray_lights_before_);
 }
 
-void FieldResources::record_distances_before(vulkan::Recorder& to, const DeviceProbes& list) {
-  reserve_distances_before(list);
+void FieldResources::record_rays_before(vulkan::Recorder& to, const DeviceProbes& list) {
+  reserve_rays_before(list);
   record_surfel_distances(to, list, {ray_distances_before_.address()}, {blocked_before_.address()});
+  record_ray_lights(to, list, kKeepLight, {});
+}
+
+void FieldResources::record_edited_light(vulkan::Recorder& to, const DeviceProbes& list,
+                                         EditedLightArray edited) const {
+  record_ray_lights(to, list, kCompareLight, edited);
+}
+
+void FieldResources::record_ray_lights(vulkan::Recorder& to, const DeviceProbes& list, uint step,
+                                       EditedLightArray edited) const {
+  const EditedLightArguments arguments = {arrays(list),
+                                          {surfels_.address()},
+                                          {ray_lights_before_.address()},
+                                          edited,
+                                          list.count(),
+                                          stride_,
+                                          round_up(list.most_rays, kLaneGroupSize),
+                                          step};
+  run_over(to, kernels_.edited_light, arguments, list, kOverLanes);
+  to.barrier();
 }
 
 void FieldResources::record_move_distances(vulkan::Recorder& to, const DeviceProbes& list,

@@ -13,6 +13,7 @@
 #include "shaders/cell_visibility_rays_comp.h"
 #include "shaders/cells_around_comp.h"
 #include "shaders/compare_light_comp.h"
+#include "shaders/edited_light_comp.h"
 #include "shaders/find_lookups_comp.h"
 #include "shaders/fit_comp.h"
 #include "shaders/gather_comp.h"
@@ -120,6 +121,7 @@ FieldKernels::FieldKernels(const vulkan::Device& device, const FieldSettings& se
   lookup = make(shaders::lookup_comp(), "lookup");
   scatter_tiles = make(shaders::scatter_tiles_comp(), "scatter_tiles");
   surfel_distances = make(shaders::surfel_distances_comp(), "surfel_distances");
+  edited_light = make(shaders::edited_light_comp(), "edited_light");
   scatter_importance = make(shaders::scatter_importance_comp(), "scatter_importance");
   move_distances = make(shaders::move_distances_comp(), "move_distances");
 }

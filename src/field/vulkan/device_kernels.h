@@ -29,7 +29,7 @@ struct FieldKernels {
   vulkan::Kernel ray_weights, probe_rays, make_surfels, hit_distances, blend_distances, gutters;
   vulkan::Kernel find_lookups, gather, receive, fit, blend_solution, solve_sums, solve_step;
   vulkan::Kernel store_irradiance, compare_light, lookup, scatter_tiles;
-  vulkan::Kernel surfel_distances, move_distances, scatter_importance;
+  vulkan::Kernel surfel_distances, edited_light, move_distances, scatter_importance;
 };
 
 /// The kernels of visibility by rays, which few fields need.

@@ -4,6 +4,7 @@
 #define LAMBENT_FIELD_VULKAN_DEVICE_RECORDS_H
 
 #include "field/correction/correction_math.h"
+#include "field/edits/edited_light_math.h"
 #include "field/lookup/lookup_records.h"
 #include "field/transport/surfel_math.h"
 #include "raytracing/ray_records.h"
@@ -19,6 +20,7 @@ const uint kNoLookup = 0xFFFFFFFFu;
 
 LAMBENT_DEVICE_ARRAY(GridArray, ProbeGrid, 4)
 LAMBENT_DEVICE_ARRAY(SurfelArray, SurfelRecord, 4)
+LAMBENT_DEVICE_ARRAY(EditedLightArray, EditedLight, 4)
 LAMBENT_DEVICE_ARRAY(LookupArray, SurfelLookup, 4)
 LAMBENT_DEVICE_ARRAY(CornerOffsetsArray, CornerOffsets, 4)
 LAMBENT_DEVICE_ARRAY(CorrectionKeyArray, CorrectionKey, 4)

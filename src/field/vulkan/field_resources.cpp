@@ -84,10 +84,10 @@ FieldResources::FieldResources(const vulkan::Device& device, const FieldSettings
 }
 
 std::size_t FieldResources::bytes() const {
-  std::size_t bytes =
-      bytes_of({&grids_, &offsets_, &irradiance_, &distance_, &corners_, &fit_, &light_,
-                &last_irradiance_estimate_, &surfels_, &lookup_records_, &sets_, &ray_distances_,
-                &blocked_, &radiance_, &at_centres_, &ray_distances_before_, &blocked_before_});
+  std::size_t bytes = bytes_of({&grids_, &offsets_, &irradiance_, &distance_, &corners_, &fit_,
+                                &light_, &last_irradiance_estimate_, &surfels_, &lookup_records_,
+                                &sets_, &ray_distances_, &blocked_, &radiance_, &at_centres_,
+                                &ray_distances_before_, &blocked_before_, &ray_lights_before_});
   for (const RaySlot& slot : slots_) {
     bytes += bytes_of({&slot.directions, &slot.irradiance_weights, &slot.distance_weights});
   }

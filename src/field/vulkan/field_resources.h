@@ -45,7 +45,7 @@ struct DeviceTransport {
   Vec4Array field, fallback;
   Vec4Array history_ratio;  ///< There is none where its address is 0.
   Vec4Array received;
-  uint light = kGatherAll;  ///< kGatherAll, kGatherDirect or kGatherSky.
+  uint light = kGatherAll;  ///< kGatherAll or kGatherSky.
 };
 
 /// The buffer from which the workgroup counts of transport's kernels are read where the device
@@ -172,12 +172,15 @@ class FieldResources {
   /// Reserves memory for the distances of a list's rays. Must be called before the functions above
   /// that record or blend distances.
   void reserve_seen(const DeviceProbes& list);
-  /// record_distances_before() and record_move_distances() shift the stored distances of a list's
-  /// probes by the change in the distances of their surfels between the two, like
-  /// invalidate_surfels(). The first one also reserves memory if reserve_distances_before() has not
-  /// been called.
-  void record_distances_before(vulkan::Recorder& to, const DeviceProbes& list);
-  void reserve_distances_before(const DeviceProbes& list);
+  /// record_rays_before() and record_move_distances() shift the stored distances of a list's probes
+  /// by the change in the distances of their surfels between the two, like invalidate_surfels().
+  /// The first one also reserves memory if reserve_rays_before() has not been called.
+  void record_rays_before(vulkan::Recorder& to, const DeviceProbes& list);
+  void reserve_rays_before(const DeviceProbes& list);
+  /// Records sums over the rays of each of the list's probes, of direct light at
+  /// record_rays_before() and now.
+  void record_edited_light(vulkan::Recorder& to, const DeviceProbes& list,
+                           EditedLightArray edited) const;
   /// One word per probe of the list: 1 where it stood inside geometry before, or has no distances
   /// from before for another reason (kNoDistancesBefore in edits/edit_arguments.h).
   UintArray blocked_before() const { return {blocked_before_.address()}; }
@@ -202,7 +205,7 @@ class FieldResources {
   /// and resets the count. Leaves the buffer as it is in fields without visibility by rays.
   void take_ray_count(vulkan::Recorder& to, const vulkan::Buffer& count) const;
 
-  /// Records TransportOperator::apply, apply_direct or apply_sky.
+  /// Records TransportOperator::apply or apply_sky.
   void record_transport(vulkan::Recorder& to, const DeviceProbes& list,
                         const DeviceTransport& transport, const TransportGroups& groups = {}) const;
   /// Records only the second half of record_transport(), after the gathering of radiance. It reads
@@ -241,6 +244,8 @@ class FieldResources {
                            const CorrectionArrays& corrections = {}) const;
 
  private:
+  void record_ray_lights(vulkan::Recorder& to, const DeviceProbes& list, uint step,
+                         EditedLightArray edited) const;
   /// A ray set that some probes traced last.
   struct RaySlot {
     std::shared_ptr<const RaySet> rays;
@@ -278,7 +283,7 @@ class FieldResources {
   vulkan::Buffer sets_;       // RaySetRecords of the slots
   // Intermediate results, from one pass to the next
   vulkan::Buffer ray_distances_, blocked_, radiance_, at_centres_;
-  vulkan::Buffer ray_distances_before_, blocked_before_;
+  vulkan::Buffer ray_distances_before_, blocked_before_, ray_lights_before_;
 };
 
 }  // namespace lambent

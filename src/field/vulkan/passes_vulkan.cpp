@@ -7,7 +7,7 @@ void FieldPassesVulkan::keep_history() {
   if (update_.history != nullptr) {
     update_.history->record_before(to_, update_.list);
   } else {
-    update_.field.record_distances_before(to_, update_.list);
+    update_.field.record_rays_before(to_, update_.list);
   }
 }
 

@@ -210,11 +210,15 @@ ProbeUpdateResult VulkanFieldBackend::update_probes(ProbeUpdate update) {
 InvalidationResult VulkanFieldBackend::retrace(const World& world, std::span<const WorldChanges>,
                                                std::span<const int> probes,
                                                std::span<const int> among, uint dither_seed) {
+  InvalidationResult result;
+  result.light.resize(probes.size());
   const std::vector<int> traced = traced_among(probes);
-  if (traced.empty()) return {};
+  if (traced.empty()) return result;
   const DeviceProbes list = field_.list(traced), everyone = field_.list(traced_among(among));
   WorldRaysVulkan rays(field_, shading_, ray_buffers_, *device_world_of(world), list, {},
                        /*sees=*/false, /*training=*/nullptr);
+  const Buffer light(*device_, traced.size() * sizeof(EditedLight), vulkan::Memory::readback,
+                     "edited light");
   Unchanged unchanged;
   const Buffer no_weights;
   UpdateVulkan update{field_, solver_, rays, unchanged, list, no_weights};
@@ -225,10 +229,19 @@ InvalidationResult VulkanFieldBackend::retrace(const World& world, std::span<con
     Recorder to(*device_, untimed.commands(), &timestamps);
     FieldPassesVulkan passes(to, update);
     retrace_probes(passes);
+    field_.record_edited_light(to, list, {light.address()});
     rays.record_counts(to);
   });
   store_is_newer_ = true;
-  return {rays.probe_rays(), rays.other_rays(), {}, pass_times(timestamps)};
+  result.probe_rays = rays.probe_rays();
+  result.shadow_rays = rays.other_rays();
+  result.passes = pass_times(timestamps);
+  std::size_t named = 0;
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    if (!field_.rays_of(probes[k])) continue;
+    result.light[k] = light.as<EditedLight>()[list.position[named++]];
+  }
+  return result;
 }
 
 SolveResult VulkanFieldBackend::solve(std::span<const int> probes,
@@ -287,34 +300,6 @@ void VulkanFieldBackend::receive(std::span<const int> probes, WorkingIrradiance&
     std::copy_n(&found.as<vec4>()[list.position[named] * texels], texels,
                 &received[named * texels]);
   }
-}
-
-std::vector<double> VulkanFieldBackend::direct_light(std::span<const int> probes) {
-  std::vector<double> light(probes.size(), 0.0);
-  std::vector<int> traced;
-  std::vector<std::size_t> named;
-  for (std::size_t k = 0; k < probes.size(); ++k) {
-    if (!field_.rays_of(probes[k])) continue;
-    traced.push_back(probes[k]);
-    named.push_back(k);
-  }
-  if (traced.empty()) return light;
-  const auto texels = static_cast<std::size_t>(field_.tile_texels());
-  const DeviceProbes list = field_.list(traced);
-  const Buffer nothing(*device_, traced.size() * texels * sizeof(vec4), vulkan::Memory::upload,
-                       "no light");
-  const Buffer found(*device_, nothing.bytes(), vulkan::Memory::readback, "direct light");
-  field_.reserve_transport(list);
-  device_->run([&](Recorder& to) {
-    field_.record_transport(
-        to, list,
-        {{field_.light().address()}, {nothing.address()}, {}, {found.address()}, kGatherDirect});
-  });
-  for (std::size_t k = 0; k < traced.size(); ++k) {
-    const vec4* tile = &found.as<vec4>()[list.position[k] * texels];
-    for (std::size_t t = 0; t < texels; ++t) light[named[k]] += luminance(vec3(tile[t]));
-  }
-  return light;
 }
 
 std::vector<float> VulkanFieldBackend::scatter_importance(std::span<const float> received,

@@ -38,7 +38,6 @@ class VulkanFieldBackend final : public FieldBackend, public DeviceLookups {
   SolveResult solve(std::span<const int> probes, std::span<const float> blend_weights,
                     const WorkingIrradiance& history_ratio, const SolveSettings& settings) override;
   void receive(std::span<const int> probes, WorkingIrradiance& received) override;
-  std::vector<double> direct_light(std::span<const int> probes) override;
   void store_light(std::span<const int> probes, uint dither_seed) override;
 
   void forget_corrections(std::span<const float> kept) override;

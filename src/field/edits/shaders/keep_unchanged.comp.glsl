@@ -15,8 +15,12 @@ layout(push_constant, scalar) uniform Push {
 
 int own, in_field;  // the first texel of the probe's tile in the list and in the field
 
-vec3 fetch_before(int texel) { return args.light_before.at[own + texel].xyz; }
-vec3 fetch_now(int texel) { return args.light.at[in_field + texel].xyz; }
+vec3 fetch_before(int texel) {
+  return args.light_before.at[own + texel].xyz;
+}
+vec3 fetch_now(int texel) {
+  return args.light.at[in_field + texel].xyz;
+}
 #include "field/probes/tile_light.inl.h"
 
 void main() {
@@ -33,18 +37,16 @@ void main() {
                  kChangedFraction * kChangedFraction;
   args.changed.at[k] = changed ? 1u : 0u;
   args.probes.standing.at[probe].coarse = 0u;
-  LikenessSums sums = LikenessSums(0.0, 0.0);
   for (int t = 0; t < texels; ++t) {
     if (!changed) {
       args.light.at[in_field + t] = args.light_before.at[own + t];
       continue;
     }
-    sums = add_likeness(sums, fetch_now(t), change.now, fetch_before(t), change.before);
     args.last_estimate.at[in_field + t] =
         args.solution.at[own + t] / args.history_ratio.at[own + t];
   }
   if (!changed) return;
-  float kept = likeness_of(sums, change.now, change.before) * args.history_shares.at[k];
   float samples = args.probes.standing.at[probe].samples;
-  args.probes.standing.at[probe].samples = samples_after_edit(samples, kept);
+  args.probes.standing.at[probe].samples = samples_after_edit(
+      samples, estimate_variance(args.edited.at[k], change.before), args.history_shares.at[k]);
 }

@@ -13,27 +13,23 @@ layout(push_constant, scalar) uniform Push {
   ScaleLightArguments args;
 };
 
-shared vec3 partial[kSumLightLanes];  // as of `sums`
+shared vec3 partial[kSumLightLanes];  // sums of ProbeAtEdit
 
-/// Luminance of texel i of the list's tiles: light that it holds, and direct light before and after
-/// the edit.
-vec3 light_at(int i, int tile) {
-  int held = args.list.at[i / tile] * tile + i % tile;
-  return vec3(luminance(args.light.at[held].xyz), luminance(args.direct_before.at[i].xyz),
-              luminance(args.direct_after.at[i].xyz));
-}
-
-ProbeAtEdit probe_at_edit(vec3 sums) {
-  return ProbeAtEdit(sums.x, sums.y, sums.z);
+/// What the edit finds of the list's probe k, whose tile has so many texels.
+ProbeAtEdit find_probe(int k, int tile) {
+  float held = 0.0;
+  for (int t = 0; t < tile; ++t) {
+    held += luminance(args.light.at[args.list.at[k] * tile + t].xyz) / float(tile);
+  }
+  return probe_at_edit(args.edited.at[k], held);
 }
 
 /// Scales the light of the list's probe k, whose tile has so many texels.
 void scale(int k, int tile) {
-  vec3 all = vec3(args.sums.at[0], args.sums.at[1], args.sums.at[2]);
-  float brighter = direct_growth(all.y, all.z);
-  vec3 own = vec3(0.0);
-  for (int t = 0; t < tile; ++t) own += light_at(k * tile + t, tile);
-  float share = history_share(probe_at_edit(own), probe_at_edit(all / float(args.count)));
+  vec3 all = args.mean.at[0];
+  ProbeAtEdit mean = ProbeAtEdit(all.x, all.y, all.z);
+  float brighter = direct_growth(mean.direct_before, mean.direct_after);
+  float share = history_share(find_probe(k, tile), mean);
   args.history_shares.at[k] = share;
   for (int t = 0; t < tile; ++t) {
     args.light.at[args.list.at[k] * tile + t] *= brighter;
@@ -44,7 +40,6 @@ void scale(int k, int tile) {
 
 void main() {
   const int tile = kIrradianceTexels * kIrradianceTexels;
-  int texels = args.count * tile;
   if (args.step == kScaleLight) {
     int k = int(gl_GlobalInvocationID.x);
     if (k < args.count) scale(k, tile);
@@ -52,12 +47,13 @@ void main() {
   }
   int lane = int(gl_LocalInvocationIndex);
   vec3 sum = vec3(0.0);
-  for (int i = lane; i < texels; i += kSumLightLanes) sum += light_at(i, tile);
+  for (int k = lane; k < args.count; k += kSumLightLanes) {
+    ProbeAtEdit probe = find_probe(k, tile);
+    sum += vec3(probe.held, probe.direct_before, probe.direct_after);
+  }
   partial[lane] = sum;
   barrier();
   if (lane != 0) return;
   for (int other = 1; other < kSumLightLanes; ++other) sum += partial[other];
-  args.sums.at[0] = sum.x;
-  args.sums.at[1] = sum.y;
-  args.sums.at[2] = sum.z;
+  args.mean.at[0] = sum / float(args.count);
 }
