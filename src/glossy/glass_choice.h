@@ -8,9 +8,11 @@
 LAMBENT_BEGIN
 
 // Least chance with which a path that came through glass alone is reflected by the next smooth
-// glass, and with which it crosses it. Of four samples one then shows the reflection, faint as it
-// is: with a chance in proportion, hardly any pixel of a pane would show it, and those all too
-// bright.
+// glass, and with which it crosses it, at the first choice. Of four samples one then shows the
+// reflection, faint as it is: with a chance in proportion, hardly any pixel of a pane would show
+// it, and those all too bright. With each further choice it halves, or few paths would cross many
+// surfaces and weigh all the more: of eight surfaces, a wine glass before a bottle, one in
+// ten, with eight times its light.
 const float kLeastGlassChance = 0.25f;
 // Least number of a pixel's samples for that: of fewer, each would show one of the two alone.
 const uint kLeastStratifiedSamples = 4u;
@@ -36,13 +38,19 @@ LAMBENT_FN bool is_stratified(uint path_step) {
   return (path_step & 256u) != 0u;
 }
 
+/// See kLeastGlassChance. `bounce` is that of the path's hit, from 1.
+LAMBENT_FN float least_glass_chance(uint bounce) {
+  return kLeastGlassChance * exp2(1.0f - float(bounce));
+}
+
 /// The choice of a pixel's path at a step, see pack_path_step().
 LAMBENT_FN GlassChoice glass_choice(uint pixel, uint path_step, uint seed) {
   uvec3 order = hash_pcg3d(uvec3(pixel, bounce_of_step(path_step) + kGlassSalt, seed));
   // Shuffled first, lest the choices of two bounces go together at all samples of a pixel
   uint index = bitfieldReverse(scramble_reversed(bitfieldReverse(path_step >> 9u), order.x));
+  float least = is_stratified(path_step) ? least_glass_chance(bounce_of_step(path_step)) : 0.0f;
   GlassChoice choice = {uniform_from_bits(bitfieldReverse(scramble_reversed(index, order.y))),
-                        is_stratified(path_step) ? kLeastGlassChance : 0.0f};
+                        least};
   return choice;
 }
 

@@ -47,15 +47,16 @@ CoatPath path_through_glass() {
   return {vec3(1.0f), kNoLightSampling, 0.0f, kStageThroughGlass, kForksNowhere, 0.0f};
 }
 
-/// Sums, over samples of a pixel, of what paths carry on that are reflected and that cross.
+/// Sums, over samples of a pixel, of what paths carry on from their first choice that are reflected
+/// and that cross.
 vec2 carried(Transmission through, uint samples) {
   const Reflectance glass = coated_reflectance(vec3(1.0f), 0.0f, 0.0f, 1.0f, vec3(1.0f), 1.5f);
   const vec3 normal(0.0f, 0.0f, 1.0f), to_viewer = normalize(vec3(0.3f, 0.0f, 1.0f));
   vec2 sums(0.0f);
   for (uint i = 0; i < samples; ++i) {
     CoatPath path = path_through_glass();
-    const NextRay next = go_on(through, glass, {1.0f, 0.0f}, normal, normal, to_viewer, 0.0f, 2,
-                               glass_choice(9, pack_path_step(2, i, samples), kSeed),
+    const NextRay next = go_on(through, glass, {1.0f, 0.0f}, normal, normal, to_viewer, 0.0f, 1,
+                               glass_choice(9, pack_path_step(1, i, samples), kSeed),
                                make_random_stream(9, i, kSeed), path);
     const bool crosses = next.side < 0.0f || next.direction_ws.z < 0.0f;
     (crosses ? sums.y : sums.x) += path.throughput.x / static_cast<float>(samples);
@@ -104,8 +105,19 @@ TEST(GlassChoice, OfFewSamplesIsEachRaysOwn) {
 
 // With fewer samples chances are in proportion: none of them may show reflections alone.
 TEST(GlassChoice, OfFewSamplesIsInProportion) {
-  EXPECT_EQ(glass_choice(1, pack_path_step(2, 0, 2), kSeed).least_chance, 0.0f);
-  EXPECT_EQ(glass_choice(1, pack_path_step(2, 0, 4), kSeed).least_chance, kLeastGlassChance);
+  EXPECT_EQ(glass_choice(1, pack_path_step(1, 0, 2), kSeed).least_chance, 0.0f);
+  EXPECT_EQ(glass_choice(1, pack_path_step(1, 0, 4), kSeed).least_chance, kLeastGlassChance);
+}
+
+// Each choice in favour of faint reflections makes the paths that cross rarer and heavier.
+TEST(GlassChoice, PathsThroughManySurfacesWeighLessThanTwice) {
+  float weight = 1.0f;
+  for (uint bounce = 1; bounce <= kMaxPathVertices; ++bounce) {
+    const float least = glass_choice(1, pack_path_step(bounce, 0, 4), kSeed).least_chance;
+    EXPECT_GT(least, 0.0f);
+    weight /= 1.0f - least;
+  }
+  EXPECT_LT(weight, 2.0f);
 }
 
 }  // namespace
