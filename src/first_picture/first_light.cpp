@@ -44,8 +44,10 @@ constexpr float kMinCourt = 0.05f;
 // black.
 constexpr float kSkyThroughWindows = 0.5f;
 
-// A site that is this much larger than its subject, by diagonals, is the ground of a scene.
-constexpr float kMinSite = 2.0f;
+// A site that is this much larger than its subject, by diagonals, is the ground of a scene. But if
+// it is higher, too, and has at most the second diagonal [m], it is the sweep of a photographer's
+// studio: those for cars are 15 m wide.
+constexpr float kMinSite = 2.0f, kMaxSweep = 20.0f;
 
 // The sky is missing where at least this share of what the camera sees is empty.
 constexpr float kMinEmptyShare = 0.02f;
@@ -169,7 +171,9 @@ bool is_outdoors(const World& world) {
   const Subject subject = find_subject(world);
   if (subject.bounds.empty()) return false;
   const bool dwarfed = diagonal(subject.site) > kMinSite * diagonal(subject.bounds);
-  return dwarfed || has_ground(world, subject.bounds);
+  const bool on_sweep =
+      dwarfed && subject.site.max.y > subject.bounds.max.y && diagonal(subject.site) < kMaxSweep;
+  return !on_sweep && (dwarfed || has_ground(world, subject.bounds));
 }
 
 /// Whether suns shine out of a void that the camera sees past things on a ground, over a court, or

@@ -14,8 +14,9 @@ namespace {
 constexpr float kDwarfedByGround = 0.3f, kDwarfedBySky = 0.1f;
 // Greatest thickness of a ground or a wall, as a share of its width.
 constexpr float kThinShare = 0.05f;
-// Things are sunk into the ground below them by at most this share of its diagonal.
-constexpr float kSunkShare = 0.02f;
+// Things are sunk into the ground below them by at most this share of its diagonal, or the second
+// one of their own height: posts, roots and what was put down carelessly.
+constexpr float kSunkShare = 0.02f, kMaxSunkHeight = 0.5f;
 // Number of rays from above the rest, half of which go up, and the largest share of these that end
 // at a backdrop: the sweep of a photographer's studio is behind and below what stands on it,
 // whereas walls and skies are around it.
@@ -37,7 +38,9 @@ bool is_flat(const Bounds& box, int axis) {
 
 /// Whether a box reaches as far as `rest`, or farther, along an axis. `rest` may be sunk into it.
 bool spans(const Bounds& box, const Bounds& rest, int axis) {
-  const float sunk = axis == 1 ? kSunkShare * diagonal(box) : 0.0f;
+  const float height = rest.max.y - rest.min.y;
+  const float sunk =
+      axis == 1 ? std::max(kSunkShare * diagonal(box), kMaxSunkHeight * height) : 0.0f;
   return box.min[axis] - sunk <= rest.min[axis] && box.max[axis] >= rest.max[axis];
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lambent/scene.h"
+#include "support/hand_made.h"
 
 namespace lambent::test {
 
@@ -44,6 +45,16 @@ inline Scene scene_of(std::vector<Mesh> meshes) {
     scene.instances.push_back(instance);
   }
   return scene;
+}
+
+/// A sheet of paper 6 m wide, on the ground and up a wall behind it.
+inline Mesh sweep_mesh() {
+  Mesh sweep = quad({-3, 0, -2}, {6, 0, 0}, {0, 0, 4}, 0);
+  sweep.positions.insert(sweep.positions.end(), {{-3, 3, -2}, {3, 3, -2}});
+  sweep.normals.resize(6, {0, 0, 1});
+  sweep.triangles.insert(sweep.triangles.end(), {{0, 1, 5}, {0, 5, 4}});
+  sweep.uvs = {};
+  return sweep;
 }
 
 }  // namespace lambent::test

@@ -2,6 +2,8 @@
 // Which light a scene without any is given.
 #include <gtest/gtest.h>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "first_picture/seen.h"
 #include "lambent/first_picture.h"
 #include "raytracing/world_access.h"
@@ -54,6 +56,15 @@ TEST(FirstLight, DoesNotTakeALightWithoutIntensityForOne) {
 
 TEST(FirstLight, IsAStudioForObjects) {
   EXPECT_EQ(chosen(scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})})), FirstLight::studio);
+}
+
+TEST(FirstLight, IsAStudioForThingsOnASweepOfPaperAndTheSunsBeforeACliff) {
+  Scene scene = scene_of({box_mesh({-0.4f, 0, -0.4f}, {0.4f, 0.8f, 0.4f}), test::sweep_mesh()});
+  EXPECT_EQ(chosen(scene), FirstLight::studio);
+  for (Instance& instance : scene.instances) {
+    instance.world_from_object = glm::scale(glm::mat4(1.0f), glm::vec3(20.0f));
+  }
+  EXPECT_EQ(chosen(scene), FirstLight::sun);
 }
 
 TEST(FirstLight, IsSunAndSkyForOpenScenes) {

@@ -179,12 +179,8 @@ TEST(FirstView, FramesTheThingAndNotTheGroundItStandsOn) {
 
 TEST(FirstView, FramesTheThingAndNotTheStudioItStandsIn) {
   // A sweep of paper below and behind a box that is sunk into it slightly, and panels of light
-  Mesh sweep = test::quad({-3, 0, -2}, {6, 0, 0}, {0, 0, 4}, 0);
-  sweep.positions.insert(sweep.positions.end(), {{-3, 3, -2}, {3, 3, -2}});
-  sweep.normals.resize(6, {0, 0, 1});
-  sweep.triangles.insert(sweep.triangles.end(), {{0, 1, 5}, {0, 5, 4}});
-  sweep.uvs = {};
-  Scene scene = scene_of({box_mesh({-0.4f, -0.01f, -0.4f}, {0.4f, 0.8f, 0.4f}), sweep});
+  Scene scene =
+      scene_of({box_mesh({-0.4f, -0.01f, -0.4f}, {0.4f, 0.8f, 0.4f}), test::sweep_mesh()});
   scene.materials.push_back(scene.materials[0]);
   scene.materials[1].emission = vec3(10.0f);
   test::add(scene, test::quad({-2, 2.5f, -1}, {4, 0, 0}, {0, 0, 2}, 1));
@@ -195,6 +191,12 @@ TEST(FirstView, FramesTheThingAndNotTheStudioItStandsIn) {
   const glm::vec3 eye = eye_of(first_view(world).value().camera);
   EXPECT_GT(eye.z, 0.0f);
   EXPECT_LT(glm::length(eye), 4.0f);
+}
+
+TEST(FirstView, FramesAThingThatWasPutThroughThePaper) {
+  const Scene scene =
+      scene_of({box_mesh({-0.4f, -0.35f, -0.4f}, {0.4f, 0.4f, 0.4f}), test::sweep_mesh()});
+  EXPECT_EQ(find_subject(World(scene)).instances, std::vector<std::uint32_t>{0});
 }
 
 TEST(FirstView, DoesNotTakeTheWallsOfAnEmptyRoomForAStudio) {
