@@ -61,9 +61,9 @@ struct UpdatePlan {
   ///
   /// Where all probes are traced at once and bounces are not counted, the change is followed
   /// exactly: the update traces every probe's last rays again (PlannedUpdate::retraces), solves for
-  /// the light of all bounces, and changes only those probes whose light differs visibly. The more
-  /// the distribution of their light over directions differs, the less their history counts; all
-  /// other probes remain unchanged, to the bit. Otherwise all averages start anew, as in a new
+  /// the light of all bounces, and changes only the light of probes where it differs visibly. The
+  /// more the distribution of their light over directions differs, and the fewer rays tell of the
+  /// change, the less their history counts. Otherwise all averages start anew, as in a new
   /// field. Eight updates after static geometry was last `rebuilt`, relocation restarts.
   ///
   /// An update that traces rays again adds no new ones to the averages: a field with changes in

@@ -44,10 +44,13 @@ constexpr float kMinCourt = 0.05f;
 // black.
 constexpr float kSkyThroughWindows = 0.5f;
 
-// A site that is this much larger than its subject, by diagonals, is the ground of a scene. But if
-// it is higher, too, and has at most the second diagonal [m], it is the sweep of a photographer's
-// studio: those for cars are 15 m wide.
-constexpr float kMinSite = 2.0f, kMaxSweep = 20.0f;
+// A site that is this much larger than its subject, by diagonals, is the ground of a scene.
+constexpr float kMinSite = 2.0f;
+// It is the sweep of a photographer's studio, though, if it is higher than the subject and has at
+// most this diagonal [m]: those for cars are 15 m wide. A yard has walls on all sides, whereas a
+// sweep is met by at most the second share of level rays away from the subject.
+constexpr float kMaxSweep = 20.0f, kMaxSweepAround = 0.6f;
+constexpr int kRaysToSweep = 32;
 
 // The sky is missing where at least this share of what the camera sees is empty.
 constexpr float kMinEmptyShare = 0.02f;
@@ -166,13 +169,28 @@ glm::vec3 best_sun_way(const World& world, const SeenView& view) {
   return best;
 }
 
+/// Whether what is around a subject stands behind it, and not all around.
+bool is_open_in_front(const World& world, const Bounds& subject) {
+  const glm::vec3 middle = 0.5f * (subject.min + subject.max);
+  std::vector<Ray> rays;
+  for (int i = 0; i < kRaysToSweep; ++i) {
+    const float angle = glm::two_pi<float>() * (static_cast<float>(i) + 0.5f) / kRaysToSweep;
+    const glm::vec3 way(std::cos(angle), 0.0f, std::sin(angle));
+    rays.push_back({middle + diagonal(subject) * way, 0.0f, way});
+  }
+  const std::vector<std::uint8_t> met = trace_occlusion(world, rays);
+  return static_cast<float>(std::count(met.begin(), met.end(), 1)) <=
+         kMaxSweepAround * kRaysToSweep;
+}
+
 /// Whether a scene stands on a ground, rather than being an object that is shown by itself.
 bool is_outdoors(const World& world) {
   const Subject subject = find_subject(world);
   if (subject.bounds.empty()) return false;
   const bool dwarfed = diagonal(subject.site) > kMinSite * diagonal(subject.bounds);
-  const bool on_sweep =
-      dwarfed && subject.site.max.y > subject.bounds.max.y && diagonal(subject.site) < kMaxSweep;
+  const bool on_sweep = dwarfed && subject.site.max.y > subject.bounds.max.y &&
+                        diagonal(subject.site) < kMaxSweep &&
+                        is_open_in_front(world, subject.bounds);
   return !on_sweep && (dwarfed || has_ground(world, subject.bounds));
 }
 

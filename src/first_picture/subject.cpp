@@ -14,8 +14,8 @@ namespace {
 constexpr float kDwarfedByGround = 0.3f, kDwarfedBySky = 0.1f;
 // Greatest thickness of a ground or a wall, as a share of its width.
 constexpr float kThinShare = 0.05f;
-// Things are sunk into the ground below them by at most this share of its diagonal, or the second
-// one of their own height: posts, roots and what was put down carelessly.
+// Things are sunk into the ground below them by at most the first share of the ground's diagonal,
+// or the second share of their own height: posts, roots and what was put down carelessly.
 constexpr float kSunkShare = 0.02f, kMaxSunkHeight = 0.5f;
 // Number of rays from above the rest, half of which go up, and the largest share of these that end
 // at a backdrop: the sweep of a photographer's studio is behind and below what stands on it,
@@ -261,17 +261,15 @@ Subject find_subject(const World& world) {
 
 Subject find_subject_near(const World& world, const glm::vec3& viewer_ws) {
   const std::vector<Bounds> boxes = instance_boxes(world);
-  const Bounds viewer{viewer_ws, viewer_ws};
   std::vector<std::uint32_t> left = visible_instances(boxes);
-  while (true) {
-    Subject subject = find_subject_in_light(world, boxes, left);
-    const float away = distance_between(subject.site, viewer);
+  const Subject first = find_subject_in_light(world, boxes, left);
+  Subject subject = first;
+  while (!left.empty()) {
+    if (contains(subject.site, viewer_ws)) return subject;
     std::erase_if(left, [&](std::uint32_t i) { return overlap(boxes[i], subject.site); });
-    const bool is_nearest = std::none_of(left.begin(), left.end(), [&](std::uint32_t i) {
-      return distance_between(boxes[i], viewer) < away;
-    });
-    if (is_nearest) return subject;
+    if (!left.empty()) subject = find_subject_in_light(world, boxes, left);
   }
+  return first;
 }
 
 }  // namespace lambent

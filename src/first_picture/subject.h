@@ -21,8 +21,8 @@ struct Subject {
 };
 
 Subject find_subject(const World& world);
-/// As find_subject(), but where some of the strays are nearer to a viewer than the site is, that
-/// among the strays: a room of a few large walls, say, far from a statue of many triangles.
+/// As find_subject(), but where a viewer stands among the strays, that of the strays: in a room of
+/// a few large walls, say, far from a statue of many triangles.
 Subject find_subject_near(const World& world, const glm::vec3& viewer_ws);
 
 /// Where most of some instances' triangles are.

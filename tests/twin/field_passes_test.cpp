@@ -225,39 +225,6 @@ TEST_F(FieldPasses, LightIsCarriedAsOnTheProcessor) {
   }
 }
 
-TEST_F(FieldPasses, LightBeforeAnEditIsComparedAsOnTheProcessor) {
-  const UpdateOnCpu& update = one_volume();
-  FieldResources field = put(update);
-  std::vector<ProbeTrace> edited = update.traces;
-  for (ProbeTrace& trace : edited) {
-    for (std::size_t i = 0; i < trace.surfels.size(); i += 3) trace.surfels[i].light *= 5.0f;
-  }
-  const DeviceProbes list = field.list(update.all);
-  device().run([&](vulkan::Recorder& to) { field.record_rays_before(to, list); });
-  field.write_surfels(update.all, edited);
-  const vulkan::Buffer found(device(), update.all.size() * sizeof(EditedLight),
-                             vulkan::Memory::readback, "edited light");
-  device().run(
-      [&](vulkan::Recorder& to) { field.record_edited_light(to, list, {found.address()}); });
-  const auto light_along = [](const Surfel& surfel) {
-    return ray_light(static_cast<uint>(surfel.kind), surfel.albedo_over_pi, surfel.light);
-  };
-  for (std::size_t k = 0; k < update.all.size(); ++k) {
-    EditedLight expected{};
-    for (std::size_t i = 0; i < edited[k].surfels.size(); ++i) {
-      expected = add_ray(expected, light_along(update.traces[k].surfels[i]),
-                         light_along(edited[k].surfels[i]));
-    }
-    const EditedLight there = found.as<EditedLight>()[list.position[k]];
-    EXPECT_EQ(there.rays, expected.rays);
-    EXPECT_FLOAT_EQ(there.before, expected.before);
-    EXPECT_FLOAT_EQ(there.after, expected.after);
-    EXPECT_FLOAT_EQ(there.before_squares, expected.before_squares);
-    EXPECT_FLOAT_EQ(there.after_squares, expected.after_squares);
-    EXPECT_FLOAT_EQ(there.products, expected.products);
-  }
-}
-
 TEST_F(FieldPasses, ASolveComesToWhatTheProcessorsDoes) {
   for (const UpdateOnCpu* update : {&one_volume(), &cascades()}) {
     FieldResources field = put(*update);

@@ -26,43 +26,54 @@ struct Rays {
 EditedLight sums_of(const Rays& rays) {
   EditedLight sums{};
   for (std::size_t i = 0; i < rays.before.size(); ++i) {
-    sums = add_ray(sums, rays.before[i], rays.after[i]);
+    sums = add_ray(sums, kSurfelSurface, rays.before[i], rays.after[i]);
   }
   return sums;
 }
 
-/// What is left of so many samples where all light is direct.
-float samples_left(float samples, const Rays& rays) {
+/// What is left of so many samples where this light is reflected beside the direct light, as
+/// radiance before and after.
+float samples_left(float samples, const Rays& rays, float was = 0.0f, float is = 0.0f) {
   const EditedLight sums = sums_of(rays);
-  const float held = kPi * sums.before / sums.rays;
-  return samples_after_edit(samples, estimate_variance(sums, held), 1.0f);
+  const float held = kPi * (sums.before / sums.rays + was);
+  const float now = kPi * (sums.after / sums.rays + is);
+  return samples_after_ratio(samples, estimate_variance(sums, held, now));
 }
 
 TEST(SamplesAfterEdit, StayWhereAllLightChangesAlike) {
   const Rays rays{{1.0f, 3.0f, 0.0f, 2.0f}, {2.0f, 6.0f, 0.0f, 4.0f}};
   EXPECT_NEAR(samples_left(50.0f, rays), 50.0f, 1e-2f);
+  EXPECT_NEAR(samples_left(50.0f, rays, 1.0f, 2.0f), 50.0f, 1e-2f);
 }
 
 TEST(SamplesAfterEdit, AreAtMostOneWhereOtherRaysMeetTheLight) {
   const Rays rays{{8.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 8.0f, 0.0f}};
   EXPECT_EQ(samples_left(50.0f, rays), 1.0f);
+  EXPECT_LT(samples_left(50.0f, rays, 1.0f, 1.0f), 2.0f);
 }
 
-TEST(SamplesAfterEdit, StayWhereAverageStartsAnewOrThereIsNoLight) {
+TEST(SamplesAfterEdit, StayWhereTheAverageStartsAnewOrThereIsNoLight) {
   const Rays rays{{8.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 8.0f, 0.0f}};
   EXPECT_EQ(samples_left(0.0f, rays), 0.0f);
   EXPECT_EQ(samples_left(9.0f, {{0.0f, 0.0f}, {0.0f, 0.0f}}), 9.0f);
 }
 
-// Hardly any of the probe's light is direct, and an edit that makes it a little brighter must not
-// cost the average.
-TEST(SamplesAfterEdit, StayWhereOtherLightHidesTheChange) {
-  const EditedLight sums = sums_of({{0.0f, 0.0f, 0.0f, 0.0f}, {0.01f, 0.0f, 0.0f, 0.0f}});
-  EXPECT_GT(samples_after_edit(50.0f, estimate_variance(sums, kPi), 1.0f), 45.0f);
+// Hardly any of the probe's light is direct, and an edit that makes one ray 1 % brighter than the
+// others must not cost the average: by the formula, 49.7 samples are left.
+TEST(SamplesAfterEdit, StayWhereReflectedLightHidesTheChange) {
+  const Rays rays{{0.0f, 0.0f, 0.0f, 0.0f}, {0.01f, 0.0f, 0.0f, 0.0f}};
+  EXPECT_GT(samples_left(50.0f, rays, 1.0f, 1.0f), 49.0f);
 }
 
-// An average, times the ratio of the light after the edit to that before it, both of the same rays,
-// against an average of as many updates as the function says.
+TEST(SamplesAfterEdit, AreOneWhereTheFirstLightOfADarkProbeIsReflected) {
+  const EditedLight none = sums_of({{0.0f, 0.0f}, {0.0f, 0.0f}});
+  const EstimateVariance variance = estimate_variance(none, 0.0f, 1.0f);
+  EXPECT_EQ(samples_after_edit(50.0f, variance, /*likeness=*/0.0f), 1.0f);
+}
+
+// An average is multiplied by the ratio of the light after an edit to that before it, both of the
+// last rays. The product has the variance of an average of as many updates as the function says;
+// 4,000 trials tell it to 2 %, and the formula is of first order.
 TEST(SamplesAfterEdit, TellTheVarianceThatIsLeft) {
   constexpr int kRays = 144, kTrials = 4000, kSamples = 30;
   std::mt19937 random(5);
@@ -121,7 +132,7 @@ struct Passage {
     scene.lights = {spot};
     return scene;
   }
-  /// The block's places, there and back.
+  /// Moves the block there and back.
   void pass(int updates) {
     for (int i = 0; i < updates; ++i) {
       const float x = 2.0f * std::cos(0.3f * static_cast<float>(i));
@@ -167,6 +178,7 @@ TEST(EditedField, DoesNotDriftWhileSomethingPassesThroughItsLight) {
       squares += glm::dot(off, off) / (3.0 * (kSeeds - 1) * found[0].size());
     }
   }
+  // It is 0.16, and 0.32 where averages count as before
   EXPECT_LT(std::sqrt(squares), 0.22);
 }
 

@@ -67,6 +67,16 @@ TEST(FirstLight, IsAStudioForThingsOnASweepOfPaperAndTheSunsBeforeACliff) {
   EXPECT_EQ(chosen(scene), FirstLight::sun);
 }
 
+TEST(FirstLight, IsTheSunsInAWalledYard) {
+  // A bench between walls that are as high as a sweep of paper
+  EXPECT_EQ(
+      chosen(scene_of({box_mesh({-5, -0.1f, -5}, {5, 0, 5}), box_mesh({-5, 0, -5}, {-4.9f, 2, 5}),
+                       box_mesh({4.9f, 0, -5}, {5, 2, 5}), box_mesh({-5, 0, -5}, {5, 2, -4.9f}),
+                       box_mesh({-5, 0, 4.9f}, {5, 2, 5}),
+                       box_mesh({-0.5f, 0, -0.2f}, {0.5f, 0.5f, 0.2f})})),
+      FirstLight::sun);
+}
+
 TEST(FirstLight, IsSunAndSkyForOpenScenes) {
   // A ground with things on it, and a court
   EXPECT_EQ(chosen(scene_of({box_mesh({-9, -1, -9}, {9, 0, 9}), box_mesh({-2, 0, -2}, {0, 3, 0}),

@@ -138,6 +138,7 @@ TEST(SeenThrough, ManyClearSlabsHaveLittleGrain) {
     }
   }
   const World world(scene);
+  // Of four samples it is 0.4; it was 0.81 where each surface reflected one of them
   EXPECT_LT(grain_through(world, scene.cameras.at(0)), 0.5);
 }
 

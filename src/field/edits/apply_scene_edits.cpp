@@ -67,13 +67,18 @@ std::vector<float> reduce_history(const PendingEdits& pending, const WorkingIrra
   for (const int probe : pending.updated) {
     const TileLight held(&pending.before[probe * texels], texels),
         found(&light[probe * texels], texels);
-    if (relative_square(held, found) < kChangedFraction * kChangedFraction) continue;
-    // The more the distribution of the light changed, the less corrections learnt of it count
-    const float share = pending.found.history_shares[probe], kept = likeness(found, held) * share;
-    counts[probe] = kept * kept;
     const EstimateVariance variance =
-        estimate_variance(pending.found.light[probe], mean_luminance(held));
-    statuses[probe].samples = samples_after_edit(statuses[probe].samples, variance, share);
+        estimate_variance(pending.found.light[probe], mean_luminance(held), mean_luminance(found));
+    float& samples = statuses[probe].samples;
+    if (relative_square(held, found) < kChangedFraction * kChangedFraction) {
+      // Several changes too small to be visible add up, and so does their noise
+      samples = samples_after_ratio(samples, variance);
+      continue;
+    }
+    // The more the distribution of the light changed, the fewer samples the average counts as
+    const float kept = likeness(found, held) * pending.found.history_shares[probe];
+    counts[probe] = kept * kept;
+    samples = samples_after_edit(samples, variance, kept);
     scheduler.mark_changed(probe);
   }
   return counts;
@@ -102,8 +107,9 @@ ProbesAtEdit IrradianceField::State::apply_edits_to_slice(
 
   double before = 0.0, after = 0.0;
   for (const EditedLight& light : result.light) {
-    before += light.before;
-    after += light.after;
+    const ProbeAtEdit probe = probe_at_edit(light, /*held=*/0.0f);
+    before += probe.direct_before;
+    after += probe.direct_after;
   }
   edits.pending.direct_light += after;
   const float brighter = direct_growth(static_cast<float>(before), static_cast<float>(after));
@@ -262,6 +268,7 @@ void IrradianceField::State::begin_edits(std::uint64_t revision, std::span<const
   edits.pending.found.history_shares.resize(statuses.size());
   edits.pending.found.light.resize(statuses.size());
   edits.pending.updated.clear();
+  edits.pending.direct_light = 0.0;
   edits.pending.revision = revision;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well the last rays of a probe know the light before an edit, and after it: both estimates
-// have the errors of the same rays, as far as the edit left what these hit alone.
+// How much noise an edit brings into the average of a probe, which it multiplies by the ratio of
+// two estimates of the same rays: of the light after the edit, and of that before it. See "Edits
+// touch what they change" in docs/dynamics.md.
 #ifndef LAMBENT_FIELD_EDITS_EDITED_LIGHT_MATH_H
 #define LAMBENT_FIELD_EDITS_EDITED_LIGHT_MATH_H
 
@@ -10,30 +11,35 @@
 
 LAMBENT_BEGIN
 
-// Light that surfels reflect of the field's varies from ray to ray by about this square of a share
-// of its mean, which an edit leaves as it is: by half of the mean, as between walls of albedo 0.8
-// and 0.3. Without it, probes that little direct light reaches would lose their averages to an
-// invisible change of it.
+// The variance from ray to ray of the light that surfels reflect of the field, over the square of
+// its mean: it varies by half, as between walls of albedo 0.8 and 0.3. Without it, probes that
+// hardly any direct light reaches would lose their averages to an invisible change of it.
 const float kReflectedVariance = 0.25f;
+// A probe whose rays bring less light than this in all has none [W/(m^2 sr)]: squares of smaller
+// numbers are not accurate.
+const float kLeastEditedLight = 1e-15f;
 
-/// Sums over the rays of a probe of direct light along each, as radiance [W/(m^2 sr), luminance]:
-/// `before` an edit and `after` it, of their squares, and of the products of the two.
+/// Sums over those rays of a probe that count, of the luminance of direct light along each
+/// [W/(m^2 sr)].
 struct EditedLight {
-  float before;
-  float after;
-  float before_squares;
+  float before;          ///< Before an edit.
+  float after;           ///< After the edit.
+  float before_squares;  ///< Of squares.
   float after_squares;
-  float products;
-  float rays;  ///< How many rays.
+  float products;  ///< Of the products of both.
+  float rays;      ///< How many rays.
 };
 
-/// Luminance of the direct or sky light that a probe receives along a ray, from its surfel.
+/// Luminance of the direct or sky light that a probe receives along a ray, from its surfel; 0 where
+/// the ray does not count.
 LAMBENT_FN float ray_light(uint kind, vec3 albedo_over_pi, vec3 light) {
   vec4 sent = sent_radiance(kind, albedo_over_pi, light, true);
   return sent.w * luminance(vec3(sent));
 }
 
-LAMBENT_FN EditedLight add_ray(EditedLight sums, float before, float after) {
+/// Adds a ray that met a surfel of this kind after the edit.
+LAMBENT_FN EditedLight add_ray(EditedLight sums, uint kind, float before, float after) {
+  if (kind == kSurfelSolidSide) return sums;
   sums.before += before;
   sums.after += after;
   sums.before_squares += before * before;
@@ -44,43 +50,56 @@ LAMBENT_FN EditedLight add_ray(EditedLight sums, float before, float after) {
 }
 
 /// Variances and covariance of the estimates of a probe's light before and after an edit by its
-/// last rays, as shares of what these estimate. All are 0 where there is no light.
+/// last rays, over the squares and the product of what these estimate.
 struct EstimateVariance {
   float before;
   float after;
   float covariance;
 };
 
-/// `held` is the luminance of the probe's irradiance before the edit [W/m^2], a mean over its
-/// texels. What of it is not direct light is the same along all rays, and after the edit.
-LAMBENT_FN EstimateVariance estimate_variance(EditedLight sums, float held) {
+/// `held` and `now` are the luminances of the probe's irradiance before and after the edit [W/m^2],
+/// means over its texels. What of them is not direct light varies from ray to ray in the same way
+/// before and after. Without light, all are 0.
+LAMBENT_FN EstimateVariance estimate_variance(EditedLight sums, float held, float now) {
   float rays = max(sums.rays, 1.0f);
-  float reflected = max(held / kPi - sums.before / rays, 0.0f);
-  float before = sums.before + rays * reflected;
-  float after = sums.after + rays * reflected;
-  EstimateVariance variance = EstimateVariance(0.0f, 0.0f, 0.0f);
-  if (!(before > 0.0f && after > 0.0f)) return variance;
-  float known = rays * reflected * reflected * (1.0f + kReflectedVariance);
-  float p = 1.0f / before, q = 1.0f / after, uniform_light = 1.0f / rays;
+  float was = max(held / kPi - sums.before / rays, 0.0f);
+  float is = max(now / kPi - sums.after / rays, 0.0f);
+  float before = sums.before + rays * was;
+  float after = sums.after + rays * is;
+  EstimateVariance variance = {0.0f, 0.0f, 0.0f};
+  if (before < kLeastEditedLight || after < kLeastEditedLight) return variance;
+  float reflected = rays * (1.0f + kReflectedVariance);
+  float p = 1.0f / before, q = 1.0f / after, even = 1.0f / rays;
   variance.before =
-      p * p * (sums.before_squares + 2.0f * reflected * sums.before + known) - uniform_light;
+      p * p * (sums.before_squares + 2.0f * was * sums.before + reflected * was * was) - even;
   variance.after =
-      q * q * (sums.after_squares + 2.0f * reflected * sums.after + known) - uniform_light;
+      q * q * (sums.after_squares + 2.0f * is * sums.after + reflected * is * is) - even;
   variance.covariance =
-      p * q * (sums.products + reflected * (sums.before + sums.after) + known) - uniform_light;
-  variance.before = max(variance.before, 0.0f);
-  variance.after = max(variance.after, 0.0f);
+      p * q * (sums.products + is * sums.before + was * sums.after + reflected * was * is) - even;
   return variance;
 }
 
-/// The number of updates whose average has the variance that is left of an average of `samples`,
-/// once an edit has multiplied it by the ratio of the two estimates. `share` is the history_share()
-/// of the probe. Averages that start anew stay so.
-LAMBENT_FN float samples_after_edit(float samples, EstimateVariance variance, float share) {
+/// The number of updates whose average is as noisy as one of `samples` updates that an edit has
+/// multiplied by the ratio of the two estimates:
+///   +---------------------------------------------+
+///   |  n' = n / (1 + n Var(q/p) / Var(q))         |
+///   |  Var(q/p) = Var(p) + Var(q) - 2 Cov(p, q)   |
+///   +---------------------------------------------+
+/// with relative variances, to first order (Cochran, "Sampling Techniques", 3rd ed., 1977, sec.
+/// 6.4). That the average contains the last rays is left out: it makes n' a little larger.
+LAMBENT_FN float samples_after_ratio(float samples, EstimateVariance variance) {
   float of_ratio = max(variance.before + variance.after - 2.0f * variance.covariance, 0.0f);
-  float left = variance.before / max(samples, 1.0f) + of_ratio;
-  float now = left > 0.0f ? min(samples, variance.after / left) : samples;
-  return max(now * share * share, min(samples, 1.0f));
+  float of_light = max(variance.after, 0.0f);
+  if (samples <= 1.0f || of_ratio <= 0.0f) return samples;
+  return max(samples * of_light / (of_light + samples * of_ratio), 1.0f);
+}
+
+/// The number of samples that an average counts as after an edit that is visible in it. `likeness`
+/// is the similarity, as of likeness_of(), of the light after the edit to the light before it,
+/// times the history_share(). Averages that start anew stay so.
+LAMBENT_FN float samples_after_edit(float samples, EstimateVariance variance, float likeness) {
+  float noise_left = samples_after_ratio(samples, variance);
+  return max(min(noise_left, samples * likeness * likeness), min(samples, 1.0f));
 }
 
 LAMBENT_END

@@ -46,8 +46,8 @@ LAMBENT_FN vec4 history_ratio_between(vec4 last_irradiance_estimate, vec4 held) 
   return history_ratio;
 }
 
-/// How much brighter an edit makes direct light, from sums over probes. Their light, scaled by it,
-/// is a good start for the solve.
+/// How much brighter an edit makes direct light, from sums or means over probes. Their light,
+/// scaled by it, is a good start for the solve.
 LAMBENT_FN float direct_growth(float before, float after) {
   return before > 0.0f ? after / before : 1.0f;
 }
@@ -61,7 +61,8 @@ struct ProbeAtEdit {
 
 LAMBENT_FN ProbeAtEdit probe_at_edit(EditedLight sums, float held) {
   float rays = max(sums.rays, 1.0f);
-  return ProbeAtEdit(held, sums.before / rays, sums.after / rays);
+  ProbeAtEdit probe = {held, sums.before / rays, sums.after / rays};
+  return probe;
 }
 
 /// The share of a probe's history that holds after an edit, 0 to 1.

@@ -263,21 +263,18 @@ void move_distances(const FieldSettings& settings, std::span<const MovedProbe> m
   });
 }
 
-float light_along_ray(const Surfel& surfel) {
-  return ray_light(static_cast<uint>(surfel.kind), surfel.albedo_over_pi, surfel.light);
-}
-
 /// Copies the direct light along a probe's rays.
 void ray_lights(const ProbeTrace& trace, std::vector<float>& lights) {
   lights.clear();
-  for (const Surfel& surfel : trace.surfels) lights.push_back(light_along_ray(surfel));
+  for (const Surfel& surfel : trace.surfels) lights.push_back(ray_light(surfel));
 }
 
 /// Compares the direct light along a probe's rays with that before an edit.
 EditedLight compare_light(std::span<const float> before, const ProbeTrace& trace) {
   EditedLight sums{};
   for (std::size_t i = 0; i < before.size(); ++i) {
-    sums = add_ray(sums, before[i], light_along_ray(trace.surfels[i]));
+    const Surfel& surfel = trace.surfels[i];
+    sums = add_ray(sums, static_cast<uint>(surfel.kind), before[i], ray_light(surfel));
   }
   return sums;
 }

@@ -18,6 +18,11 @@
 
 namespace lambent {
 
+/// Luminance of the direct or sky light that a probe receives along a surfel's ray.
+inline float ray_light(const Surfel& surfel) {
+  return ray_light(static_cast<uint>(surfel.kind), surfel.albedo_over_pi, surfel.light);
+}
+
 /// The rays and times that bringing probes up to date took, and the probes that it changed.
 struct InvalidationResult {
   std::uint64_t probe_rays = 0;   ///< Probe rays traced again.

@@ -29,7 +29,7 @@ struct PendingEdits {
   WorkingIrradiance history_ratio;
   ProbesAtEdit found;         ///< Of all of the field's probes; only those of `updated` count.
   std::vector<int> updated;   ///< Probes to which the edits have been applied, in ascending order.
-  double direct_light = 0.0;  ///< Sum of the direct light along all rays of `updated` now.
+  double direct_light = 0.0;  ///< Of the light along their rays now, a sum of means.
 };
 
 /// How far an update got with the edits of the world: no probe was stale, some stale probes are

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stores the direct light along the rays of probes before an edit, and sums it up together with
-// that after it. One lane per probe: sums in the order of the rays are the same on all devices.
+// that after it, in the order of the rays. One lane per probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/edits/edit_arguments.h"
@@ -10,12 +10,6 @@ layout(push_constant, scalar) uniform Push {
   EditedLightArguments args;
 };
 
-/// Light along a ray of a probe, from its surfel.
-float light_along(int probe, int ray) {
-  SurfelRecord surfel = args.surfels.at[probe * args.stride + ray];
-  return ray_light(surfel.kind, surfel.albedo_over_pi, surfel.light);
-}
-
 void main() {
   int k = int(gl_GlobalInvocationID.x);
   if (k >= args.count) return;
@@ -23,12 +17,17 @@ void main() {
   int rays = args.list.sets.at[args.list.ray_sets.at[k]].rays;
   int own = k * args.ray_stride;
   if (args.step == kKeepLight) {
-    for (int ray = 0; ray < rays; ++ray) args.light_before.at[own + ray] = light_along(probe, ray);
+    for (int ray = 0; ray < rays; ++ray) {
+      SurfelRecord surfel = args.surfels.at[probe * args.stride + ray];
+      args.light_before.at[own + ray] = ray_light(surfel.kind, surfel.albedo_over_pi, surfel.light);
+    }
     return;
   }
   EditedLight sums = EditedLight(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
   for (int ray = 0; ray < rays; ++ray) {
-    sums = add_ray(sums, args.light_before.at[own + ray], light_along(probe, ray));
+    SurfelRecord surfel = args.surfels.at[probe * args.stride + ray];
+    sums = add_ray(sums, surfel.kind, args.light_before.at[own + ray],
+                   ray_light(surfel.kind, surfel.albedo_over_pi, surfel.light));
   }
   args.edited.at[k] = sums;
 }

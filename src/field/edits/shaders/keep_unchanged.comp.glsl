@@ -37,16 +37,23 @@ void main() {
                  kChangedFraction * kChangedFraction;
   args.changed.at[k] = changed ? 1u : 0u;
   args.probes.standing.at[probe].coarse = 0u;
+  float samples = args.probes.standing.at[probe].samples;
+  EstimateVariance variance = estimate_variance(args.edited.at[k], change.before, change.now);
+  LikenessSums sums = LikenessSums(0.0, 0.0);
   for (int t = 0; t < texels; ++t) {
     if (!changed) {
       args.light.at[in_field + t] = args.light_before.at[own + t];
       continue;
     }
+    sums = add_likeness(sums, fetch_now(t), change.now, fetch_before(t), change.before);
     args.last_estimate.at[in_field + t] =
         args.solution.at[own + t] / args.history_ratio.at[own + t];
   }
-  if (!changed) return;
-  float samples = args.probes.standing.at[probe].samples;
-  args.probes.standing.at[probe].samples = samples_after_edit(
-      samples, estimate_variance(args.edited.at[k], change.before), args.history_shares.at[k]);
+  if (changed) {
+    float kept = likeness_of(sums, change.now, change.before) * args.history_shares.at[k];
+    samples = samples_after_edit(samples, variance, kept);
+  } else {
+    samples = samples_after_ratio(samples, variance);
+  }
+  args.probes.standing.at[probe].samples = samples;
 }
