@@ -110,14 +110,18 @@ void split_mirrored_vertices(Mesh& mesh, const std::vector<UvFrame>& frames,
 
 }  // namespace
 
-std::size_t drop_degenerate_triangles(Mesh& mesh) {
+DroppedTriangles drop_degenerate_triangles(Mesh& mesh) {
+  DroppedTriangles dropped;
   // Computed in float, as in the passes, which cannot compute a normal where this underflows
-  const auto is_degenerate = [&mesh](const glm::uvec3& triangle) {
-    const glm::vec3 a = mesh.positions[triangle.x];
-    return !has_direction(
-        glm::cross(mesh.positions[triangle.y] - a, mesh.positions[triangle.z] - a));
+  const auto is_degenerate = [&](const glm::uvec3& triangle) {
+    const glm::vec3 a = mesh.positions[triangle.x], b = mesh.positions[triangle.y],
+                    c = mesh.positions[triangle.z];
+    const bool degenerate = !has_direction(glm::cross(b - a, c - a));
+    if (degenerate && a != b && b != c && c != a) ++dropped.slivers;
+    return degenerate;
   };
-  return std::erase_if(mesh.triangles, is_degenerate);
+  dropped.all = std::erase_if(mesh.triangles, is_degenerate);
+  return dropped;
 }
 
 void drop_unused_vertices(Mesh& mesh, VertexOrigins* origins) {

@@ -14,6 +14,7 @@ using test::GltfBuilder;
 using test::Json;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::SizeIs;
 
 constexpr int kPoints = 0, kStrip = 5, kFan = 6;
@@ -157,9 +158,21 @@ TEST(GltfMeshes, TrianglesWithoutAreaAreDropped) {
   const Expected<Scene> scene = zigzag(kStrip, {0, 1, 2, 2, 3, 4}).load();
   ASSERT_TRUE(scene) << error_of(scene);
   EXPECT_THAT(scene->meshes.at(0).triangles, SizeIs(2));
+  // Strips repeat corners where they turn
+  EXPECT_THAT(scene->source.warnings, IsEmpty());
+}
+
+TEST(GltfMeshes, SliversWithoutAreaAreDroppedWithAWarning) {
+  GltfBuilder builder;
+  const int positions = builder.accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0}, "VEC3");
+  const int indices = builder.accessor<std::uint16_t>({0, 1, 2, 0, 1, 3, 0, 0, 1}, "SCALAR");
+  builder.show({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  EXPECT_THAT(scene->meshes.at(0).triangles, SizeIs(1));
   EXPECT_THAT(
       scene->source.warnings,
-      ElementsAre("2 triangles without area were dropped, first in meshes[0].primitives[0]."));
+      ElementsAre("1 triangles without area were dropped, first in meshes[0].primitives[0]."));
 }
 
 TEST(GltfMeshes, VerticesThatNoTriangleUsesAreDropped) {

@@ -226,8 +226,8 @@ TEST(GltfOrigin, OfSkinsIsTheWorldsInTheEnd) {
 
 TEST(GltfOrigin, WarningsOfRepairsAreToldOnce) {
   GltfBuilder builder;
-  const int positions = builder.accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
-  const int indices = builder.accessor<std::uint16_t>({0, 1, 2, 0, 0, 1}, "SCALAR");
+  const int positions = builder.accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0}, "VEC3");
+  const int indices = builder.accessor<std::uint16_t>({0, 1, 2, 0, 1, 3}, "SCALAR");
   builder.show({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
   builder.root["nodes"][0]["translation"] = list_of(kFar);
   EXPECT_THAT(loaded(builder).source.warnings,

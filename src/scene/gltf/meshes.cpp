@@ -375,7 +375,10 @@ Expected<std::optional<ImportedMesh>> import_primitive(Document& document, int m
     }
     LAMBENT_CHECK(bend_by_joints(document, place, influences, world_from_vertex, mesh));
   }
-  document.repaired("triangles without area were dropped", drop_degenerate_triangles(mesh), place);
+  const DroppedTriangles dropped = drop_degenerate_triangles(mesh);
+  // Where a mesh bends, triangles that are points now may grow later
+  document.repaired("triangles without area were dropped",
+                    rig != nullptr ? dropped.all : dropped.slivers, place);
   if (mesh.triangles.empty()) return std::nullopt;
   VertexOrigins origins(mesh.positions.size());
   std::iota(origins.begin(), origins.end(), 0u);
