@@ -26,7 +26,7 @@ glm::vec3 face_normal(const Mesh& mesh, std::size_t triangle) {
 }
 
 // A zigzag of five vertices in the plane z = 0.
-GltfBuilder zigzag(int mode, std::vector<std::uint16_t> indices = {}) {
+GltfBuilder zigzag(int mode, const std::vector<std::uint16_t>& indices = {}) {
   GltfBuilder builder;
   const int positions =
       builder.accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0}, "VEC3");

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "field/edits/history_ratio_math.h"
 #include "shaders/gather_tiles_comp.h"
 #include "shaders/history_ratio_comp.h"
 #include "shaders/keep_unchanged_comp.h"
