@@ -108,8 +108,8 @@ struct IrradianceField::State {
   double apply_edits_in_slices(const World& world, const EditBudget& budget, StaleProbes& stale,
                                UpdateStatistics& statistics);
   /// Brings one slice of the stale probes up to date. `all` are all traced probes. Reduces their
-  /// history ratios, and returns what the edits find of each.
-  ProbesAtEdit apply_edits_to_slice(const World& world, std::span<const WorldChanges> changes,
+  /// history ratios, and returns what the edits changed at each.
+  EditedProbes apply_edits_to_slice(const World& world, std::span<const WorldChanges> changes,
                                     std::span<const int> probes, std::span<const int> all,
                                     WorkingIrradiance& history_ratio, UpdateStatistics& statistics);
   /// Reduces the weight of averages and corrections whose light the pending edits changed.

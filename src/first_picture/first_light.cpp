@@ -47,9 +47,11 @@ constexpr float kSkyThroughWindows = 0.5f;
 // A site that is this much larger than its subject, by diagonals, is the ground of a scene.
 constexpr float kMinSite = 2.0f;
 // It is the sweep of a photographer's studio, though, if it is higher than the subject and has at
-// most this diagonal [m]: those for cars are 15 m wide. A yard has walls on all sides, whereas a
-// sweep is met by at most the second share of level rays away from the subject.
-constexpr float kMaxSweep = 20.0f, kMaxSweepAround = 0.6f;
+// most this diagonal [m]: those for cars are 15 m wide.
+constexpr float kMaxSweep = 20.0f;
+// A yard has walls on all sides. Of level rays away from the subject, a sweep stops at most this
+// share: half, where it bends around the subject.
+constexpr float kMaxSweepAround = 0.6f;
 constexpr int kRaysToSweep = 32;
 
 // The sky is missing where at least this share of what the camera sees is empty.

@@ -202,8 +202,8 @@ TEST_F(FieldPasses, LightIsCarriedAsOnTheProcessor) {
     FieldResources field = put(*update);
     const DeviceProbes list = field.list(update->all);
     field.reserve_transport(list);
-    WorkingIrradiance light = update->darkness(), expected = light;
-    update->transport().apply_direct(light, light);
+    const WorkingIrradiance light = update->direct_light();
+    WorkingIrradiance expected = update->darkness();
     const vulkan::Buffer in = vulkan::upload<vec4>(device(), light, "light");
     const vulkan::Buffer fallback =
         vulkan::upload<vec4>(device(), in_list(list, light, update->tile_texels()), "fallback");
@@ -233,8 +233,7 @@ TEST_F(FieldPasses, ASolveComesToWhatTheProcessorsDoes) {
     solver.reserve(list);
     const SolveSettings settings{0.95f, 1e-5f, 24};
     for (const float blend_weight : {1.0f, 0.3f}) {
-      WorkingIrradiance expected = update->darkness();
-      update->transport().apply_direct(expected, expected);
+      WorkingIrradiance expected = update->direct_light();
       vulkan::write<vec4>(device(), expected, field.light());
       const std::vector<float> blend_weights(update->all.size(), blend_weight);
       const SolveResult there =
@@ -291,8 +290,7 @@ TEST_F(FieldPasses, BouncesAreCountedAsOnTheProcessor) {
   const std::vector<float> blend_weights(update.all.size(), 0.6f);
   const vulkan::Buffer blend_weight_buffer =
       vulkan::upload(device(), blend_weights, "blend_weights");
-  WorkingIrradiance expected = update.darkness();
-  update.transport().apply_direct(expected, expected);
+  WorkingIrradiance expected = update.direct_light();
   vulkan::write<vec4>(device(), expected, field.light());
   solve_counted_bounces(update.transport(), blend_weights, 3, expected);
   device().run(
@@ -344,8 +342,8 @@ TEST_F(FieldPasses, ChangesOfLightAreMeasuredAsOnTheProcessor) {
   const UpdateOnCpu& update = one_volume();
   FieldResources field = put(update);
   const DeviceProbes list = field.list(update.all);
-  WorkingIrradiance now = update.darkness(), before = now;
-  update.transport().apply_direct(before, before);
+  const WorkingIrradiance before = update.direct_light();
+  WorkingIrradiance now = update.darkness();
   update.transport().apply(before, before, now);
   vulkan::write<vec4>(device(), now, field.light());
   const std::size_t texels = update.tile_texels();

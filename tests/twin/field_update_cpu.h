@@ -60,6 +60,13 @@ struct UpdateOnCpu {
   WorkingIrradiance darkness() const {
     return WorkingIrradiance(all.size() * tile_texels(), vec4(0.0f));
   }
+  /// The irradiance from the sky, and from surfels that reflect direct light only.
+  WorkingIrradiance direct_light() const {
+    const WorkingIrradiance dark = darkness();
+    WorkingIrradiance received = dark;
+    transport().apply(dark, dark, received);
+    return received;
+  }
   std::size_t tile_texels() const {
     return static_cast<std::size_t>(settings.irradiance_texels) * settings.irradiance_texels;
   }

@@ -68,7 +68,7 @@ std::vector<float> reduce_history(const PendingEdits& pending, const WorkingIrra
     const TileLight held(&pending.before[probe * texels], texels),
         found(&light[probe * texels], texels);
     const EstimateVariance variance =
-        estimate_variance(pending.found.light[probe], mean_luminance(held), mean_luminance(found));
+        estimate_variance(pending.probes.light[probe], mean_luminance(held), mean_luminance(found));
     float& samples = statuses[probe].samples;
     if (relative_square(held, found) < kChangedFraction * kChangedFraction) {
       // Several changes too small to be visible add up, and so does their noise
@@ -76,7 +76,7 @@ std::vector<float> reduce_history(const PendingEdits& pending, const WorkingIrra
       continue;
     }
     // The more the distribution of the light changed, the fewer samples the average counts as
-    const float kept = likeness(found, held) * pending.found.history_shares[probe];
+    const float kept = likeness(found, held) * pending.probes.history_shares[probe];
     counts[probe] = kept * kept;
     samples = samples_after_edit(samples, variance, kept);
     scheduler.mark_changed(probe);
@@ -88,7 +88,7 @@ std::vector<float> reduce_history(const PendingEdits& pending, const WorkingIrra
 
 /// Brings one slice of the probes up to date. Scales their light by the ratio of direct light after
 /// the edits to that before them, which gives the solve a good start.
-ProbesAtEdit IrradianceField::State::apply_edits_to_slice(
+EditedProbes IrradianceField::State::apply_edits_to_slice(
     const World& world, std::span<const WorldChanges> changes, std::span<const int> probes,
     std::span<const int> all, WorkingIrradiance& history_ratio, UpdateStatistics& statistics) {
   PassTimer watch(statistics.passes);
@@ -114,14 +114,14 @@ ProbesAtEdit IrradianceField::State::apply_edits_to_slice(
   edits.pending.direct_light += after;
   const float brighter = direct_growth(static_cast<float>(before), static_cast<float>(after));
   const auto texels = static_cast<std::size_t>(data.tile_texels());
-  ProbesAtEdit found{reduce_history_ratios(probes, data, result.light, history_ratio),
-                     std::move(result.light)};
+  EditedProbes edited{reduce_history_ratios(probes, data, result.light, history_ratio),
+                      std::move(result.light)};
   for (const int probe : probes) {
     statuses[probe].revision = world.revision();
     for (std::size_t t = 0; t < texels; ++t) data.light[probe * texels + t] *= brighter;
   }
   watch.finish(field_pass::kEdits, counted);
-  return found;
+  return edited;
 }
 
 void IrradianceField::State::apply_edits_to_sleeping(const World& world, const EditBudget& budget,
@@ -265,8 +265,8 @@ void IrradianceField::State::begin_edits(std::uint64_t revision, std::span<const
   }
   edits.pending.before = data.light;
   edits.pending.history_ratio.resize(data.light.size());
-  edits.pending.found.history_shares.resize(statuses.size());
-  edits.pending.found.light.resize(statuses.size());
+  edits.pending.probes.history_shares.resize(statuses.size());
+  edits.pending.probes.light.resize(statuses.size());
   edits.pending.updated.clear();
   edits.pending.direct_light = 0.0;
   edits.pending.revision = revision;
@@ -293,14 +293,14 @@ double IrradianceField::State::apply_edits_in_slices(const World& world, const E
     const std::vector<WorldChanges> changes = *world.changes_since(slice.oldest);
     WorkingIrradiance history_ratio = history_ratio_of(slice.probes, data);
     watch.finish(field_pass::kSolve);
-    const ProbesAtEdit found =
+    const EditedProbes edited =
         apply_edits_to_slice(world, changes, slice.probes, stale.traced, history_ratio, statistics);
     watch.skip();
     for (std::size_t k = 0; k < slice.probes.size(); ++k) {
       const auto probe = static_cast<std::size_t>(slice.probes[k]);
       std::copy_n(&history_ratio[k * texels], texels, &edits.pending.history_ratio[probe * texels]);
-      edits.pending.found.history_shares[probe] = found.history_shares[k];
-      edits.pending.found.light[probe] = found.light[k];
+      edits.pending.probes.history_shares[probe] = edited.history_shares[k];
+      edits.pending.probes.light[probe] = edited.light[k];
     }
     stale.waiting.erase(stale.waiting.begin(),
                         stale.waiting.begin() + static_cast<std::ptrdiff_t>(slice.probes.size()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much noise an edit brings into the average of a probe, which it multiplies by the ratio of
-// two estimates of the same rays: of the light after the edit, and of that before it. See "Edits
+// The noise that edits add to averages. An edit multiplies the average of a probe by the ratio of
+// two estimates by the same rays: the light after the edit over the light before it. See "Edits
 // touch what they change" in docs/dynamics.md.
 #ifndef LAMBENT_FIELD_EDITS_EDITED_LIGHT_MATH_H
 #define LAMBENT_FIELD_EDITS_EDITED_LIGHT_MATH_H
@@ -24,10 +24,10 @@ const float kLeastEditedLight = 1e-15f;
 struct EditedLight {
   float before;          ///< Before an edit.
   float after;           ///< After the edit.
-  float before_squares;  ///< Of squares.
-  float after_squares;
-  float products;  ///< Of the products of both.
-  float rays;      ///< How many rays.
+  float before_squares;  ///< Of the squares of the light before the edit.
+  float after_squares;   ///< Of the squares of the light after it.
+  float products;        ///< Of the products of both.
+  float rays;            ///< Number of rays.
 };
 
 /// Luminance of the direct or sky light that a probe receives along a ray, from its surfel; 0 where
@@ -62,20 +62,24 @@ struct EstimateVariance {
 /// before and after. Without light, all are 0.
 LAMBENT_FN EstimateVariance estimate_variance(EditedLight sums, float held, float now) {
   float rays = max(sums.rays, 1.0f);
-  float was = max(held / kPi - sums.before / rays, 0.0f);
-  float is = max(now / kPi - sums.after / rays, 0.0f);
-  float before = sums.before + rays * was;
-  float after = sums.after + rays * is;
+  float reflected_before = max(held / kPi - sums.before / rays, 0.0f);
+  float reflected_after = max(now / kPi - sums.after / rays, 0.0f);
+  float before = sums.before + rays * reflected_before;
+  float after = sums.after + rays * reflected_after;
   EstimateVariance variance = {0.0f, 0.0f, 0.0f};
   if (before < kLeastEditedLight || after < kLeastEditedLight) return variance;
-  float reflected = rays * (1.0f + kReflectedVariance);
-  float p = 1.0f / before, q = 1.0f / after, even = 1.0f / rays;
-  variance.before =
-      p * p * (sums.before_squares + 2.0f * was * sums.before + reflected * was * was) - even;
-  variance.after =
-      q * q * (sums.after_squares + 2.0f * is * sums.after + reflected * is * is) - even;
-  variance.covariance =
-      p * q * (sums.products + is * sums.before + was * sums.after + reflected * was * is) - even;
+  // Sums of squares and products of all light along each ray
+  float reflected_squares = rays * (1.0f + kReflectedVariance);
+  float before_squares = sums.before_squares + 2.0f * reflected_before * sums.before +
+                         reflected_squares * reflected_before * reflected_before;
+  float after_squares = sums.after_squares + 2.0f * reflected_after * sums.after +
+                        reflected_squares * reflected_after * reflected_after;
+  float products = sums.products + reflected_after * sums.before + reflected_before * sums.after +
+                   reflected_squares * reflected_before * reflected_after;
+  float per_before = 1.0f / before, per_after = 1.0f / after;
+  variance.before = per_before * per_before * before_squares - 1.0f / rays;
+  variance.after = per_after * per_after * after_squares - 1.0f / rays;
+  variance.covariance = per_before * per_after * products - 1.0f / rays;
   return variance;
 }
 
@@ -85,8 +89,10 @@ LAMBENT_FN EstimateVariance estimate_variance(EditedLight sums, float held, floa
 ///   |  n' = n / (1 + n Var(q/p) / Var(q))         |
 ///   |  Var(q/p) = Var(p) + Var(q) - 2 Cov(p, q)   |
 ///   +---------------------------------------------+
-/// with relative variances, to first order (Cochran, "Sampling Techniques", 3rd ed., 1977, sec.
-/// 6.4). That the average contains the last rays is left out: it makes n' a little larger.
+/// where p and q are the light along a ray before and after the edit, with relative variances, to
+/// first order (Cochran, "Sampling Techniques", 3rd ed., 1977, sec. 6.4). The average is taken to
+/// be as noisy as n updates of the light after the edit, and to be independent of the last rays,
+/// although it contains them: n' is a little too small.
 LAMBENT_FN float samples_after_ratio(float samples, EstimateVariance variance) {
   float of_ratio = max(variance.before + variance.after - 2.0f * variance.covariance, 0.0f);
   float of_light = max(variance.after, 0.0f);

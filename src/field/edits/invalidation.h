@@ -29,8 +29,9 @@ struct InvalidationResult {
   std::uint64_t shadow_rays = 0;  ///< Shadow and visibility rays traced.
   std::vector<int>
       moved;  ///< Probes whose rays now have other distances, in the order of `probes`.
-  std::vector<EditedLight> light;  ///< Of each probe, in the order of `probes`.
-  std::vector<PassTime> passes;    ///< A device's time for each pass; empty on the processor.
+  /// Direct light along each probe's rays before and after, in the order of `probes`.
+  std::vector<EditedLight> light;
+  std::vector<PassTime> passes;  ///< A device's time for each pass; empty on the processor.
 };
 
 /// Brings the surfels and stored distances of `probes`, which have been traced, up to date with the

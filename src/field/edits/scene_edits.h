@@ -13,10 +13,10 @@
 
 namespace lambent {
 
-/// What edits find of some probes, one entry for each of them.
-struct ProbesAtEdit {
+/// What edits changed at some probes, one entry for each of them.
+struct EditedProbes {
   std::vector<float> history_shares;  ///< The share of its history that holds (history_share()).
-  std::vector<EditedLight> light;     ///< The direct light along its rays.
+  std::vector<EditedLight> light;     ///< Direct light along its rays before and after.
 };
 
 /// Edits of the world that have been applied to some probes and not yet to others.
@@ -27,9 +27,9 @@ struct PendingEdits {
   /// For each texel of the updated probes, the ratio of the averaged light to what the last rays
   /// alone estimated (history_ratio.cpp).
   WorkingIrradiance history_ratio;
-  ProbesAtEdit found;         ///< Of all of the field's probes; only those of `updated` count.
+  EditedProbes probes;        ///< Of all of the field's probes; only those of `updated` count.
   std::vector<int> updated;   ///< Probes to which the edits have been applied, in ascending order.
-  double direct_light = 0.0;  ///< Of the light along their rays now, a sum of means.
+  double direct_light = 0.0;  ///< Sum over `updated` of the mean direct light along their rays.
 };
 
 /// How far an update got with the edits of the world: no probe was stale, some stale probes are

@@ -96,13 +96,12 @@ LAMBENT_FORCE_INLINE void store(const vec4& value, float* out) {
   for (int c = 0; c < 4; ++c) out[c] = value[c];
 }
 
-/// Gathers the radiance along a probe's rays without light from the field: that of the sky and, if
-/// `reflected`, of direct light on surfels. `radiance` has four floats per ray.
-void gather_unlit(const ProbeTrace& trace, bool reflected, float* radiance) {
+/// Gathers the sky's radiance along a probe's rays. `radiance` has four floats per ray.
+void gather_sky(const ProbeTrace& trace, float* radiance) {
   for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
     const Surfel& surfel = trace.surfels[i];
     store(sent_radiance(static_cast<uint>(surfel.kind), surfel.albedo_over_pi, surfel.light,
-                        reflected),
+                        /*reflects=*/false),
           radiance + 4 * i);
   }
 }
@@ -158,18 +157,9 @@ void TransportOperator::apply(const WorkingIrradiance& field, const WorkingIrrad
           fallback, received);
 }
 
-void TransportOperator::apply_direct(const WorkingIrradiance& fallback,
-                                     WorkingIrradiance& received) const {
-  receive([](const ProbeTrace& trace,
-             float* radiance) { gather_unlit(trace, /*reflected=*/true, radiance); },
-          fallback, received);
-}
-
 void TransportOperator::apply_sky(const WorkingIrradiance& fallback,
                                   WorkingIrradiance& received) const {
-  receive([](const ProbeTrace& trace,
-             float* radiance) { gather_unlit(trace, /*reflected=*/false, radiance); },
-          fallback, received);
+  receive(gather_sky, fallback, received);
 }
 
 template <class Gather>

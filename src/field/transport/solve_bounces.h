@@ -35,9 +35,6 @@ class TransportOperator {
   void apply(const WorkingIrradiance& field, const WorkingIrradiance& fallback,
              WorkingIrradiance& received) const;
 
-  /// Computes the irradiance from the sky, and from surfels that reflect direct light only.
-  void apply_direct(const WorkingIrradiance& fallback, WorkingIrradiance& received) const;
-
   /// No bounce: computes the irradiance from the sky only.
   void apply_sky(const WorkingIrradiance& fallback, WorkingIrradiance& received) const;
 

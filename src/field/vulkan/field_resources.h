@@ -172,13 +172,12 @@ class FieldResources {
   /// Reserves memory for the distances of a list's rays. Must be called before the functions above
   /// that record or blend distances.
   void reserve_seen(const DeviceProbes& list);
-  /// record_rays_before() and record_move_distances() shift the stored distances of a list's probes
-  /// by the change in the distances of their surfels between the two, like invalidate_surfels().
-  /// The first one also reserves memory if reserve_rays_before() has not been called.
+  /// record_rays_before() keeps the distances of a list's surfels and the direct light along their
+  /// rays. It reserves memory if reserve_rays_before() has not been called. record_move_distances()
+  /// then shifts the probes' stored distances by the change since, like invalidate_surfels().
   void record_rays_before(vulkan::Recorder& to, const DeviceProbes& list);
   void reserve_rays_before(const DeviceProbes& list);
-  /// Records sums over the rays of each of the list's probes, of direct light at
-  /// record_rays_before() and now.
+  /// Records the sums of the list's probes over direct light then and now.
   void record_edited_light(vulkan::Recorder& to, const DeviceProbes& list,
                            EditedLightArray edited) const;
   /// One word per probe of the list: 1 where it stood inside geometry before, or has no distances
@@ -244,8 +243,6 @@ class FieldResources {
                            const CorrectionArrays& corrections = {}) const;
 
  private:
-  void record_ray_lights(vulkan::Recorder& to, const DeviceProbes& list, uint step,
-                         EditedLightArray edited) const;
   /// A ray set that some probes traced last.
   struct RaySlot {
     std::shared_ptr<const RaySet> rays;
@@ -257,6 +254,9 @@ class FieldResources {
   void write_sets();
   void record_surfel_distances(vulkan::Recorder& to, const DeviceProbes& list, FloatArray distances,
                                UintArray blocked) const;
+  /// Records a step of edited_light; kCompareLight alone writes `edited`.
+  void record_ray_lights(vulkan::Recorder& to, const DeviceProbes& list, uint step,
+                         EditedLightArray edited) const;
   template <class Arguments>
   void run_transport(vulkan::Recorder& to, const vulkan::Kernel& kernel, const Arguments& arguments,
                      const DeviceProbes& list, uint shape, const TransportGroups& groups,

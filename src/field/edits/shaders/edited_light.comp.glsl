@@ -10,6 +10,10 @@ layout(push_constant, scalar) uniform Push {
   EditedLightArguments args;
 };
 
+float light_along_ray(SurfelRecord surfel) {
+  return ray_light(surfel.kind, surfel.albedo_over_pi, surfel.light);
+}
+
 void main() {
   int k = int(gl_GlobalInvocationID.x);
   if (k >= args.count) return;
@@ -18,16 +22,14 @@ void main() {
   int own = k * args.ray_stride;
   if (args.step == kKeepLight) {
     for (int ray = 0; ray < rays; ++ray) {
-      SurfelRecord surfel = args.surfels.at[probe * args.stride + ray];
-      args.light_before.at[own + ray] = ray_light(surfel.kind, surfel.albedo_over_pi, surfel.light);
+      args.light_before.at[own + ray] = light_along_ray(args.surfels.at[probe * args.stride + ray]);
     }
     return;
   }
   EditedLight sums = EditedLight(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
   for (int ray = 0; ray < rays; ++ray) {
     SurfelRecord surfel = args.surfels.at[probe * args.stride + ray];
-    sums = add_ray(sums, surfel.kind, args.light_before.at[own + ray],
-                   ray_light(surfel.kind, surfel.albedo_over_pi, surfel.light));
+    sums = add_ray(sums, surfel.kind, args.light_before.at[own + ray], light_along_ray(surfel));
   }
   args.edited.at[k] = sums;
 }
