@@ -24,8 +24,8 @@ struct WorldChanges {
     std::optional<Light> before, after;
   };
   std::uint64_t revision = 0;  ///< Counts updates that found something; 0: the world as built.
-  /// World-space boxes [m], one per instance that moved, deformed, appeared, vanished, or changed
-  /// which rays pass through it; each contains the instance before and after.
+  /// World-space boxes [m] of instances that moved, deformed, appeared, vanished, or changed which
+  /// rays pass through them: around each one as it was, and as it is.
   std::vector<Bounds> moved;
   /// The boxes of those instances that are not Instance::dynamic.
   std::vector<Bounds> rebuilt;

@@ -182,12 +182,14 @@ Expected<void> Renderer::render(const Camera& camera, const FrameSettings& setti
   const std::optional<FrameBefore> before = frame_before(s.before_last, s.world, settings);
   if (before) request.before = &*before;
   request.sequence = s.next_of_sequence(view);
-  std::optional<MovedParts> moved;
+  std::optional<ChangedLight> changed;
   if (averages(settings)) {
     if (before && s.before_last.fog == view.fog) {
       request.light_continues = s.before_last.world_revision == view.world_revision;
-      if (!request.light_continues) moved = moved_since(s.world, s.before_last.world_revision);
-      if (moved) request.moved = &*moved;
+      if (!request.light_continues) {
+        changed = light_changed_since(s.world, s.before_last.world_revision);
+      }
+      if (changed) request.changed = &*changed;
     }
     request.first_sample = static_cast<std::uint32_t>(s.frames);
   }

@@ -16,7 +16,7 @@
 namespace lambent {
 
 class DeviceWorld;
-class MovedParts;
+struct ChangedLight;
 struct FrameBefore;
 
 /// Everything that a frame is rendered from; all of it in range.
@@ -27,7 +27,7 @@ struct FrameRequest {
   const FrameSettings& settings;
   const FrameBefore* before = nullptr;    ///< Null: there is no previous frame of this size.
   bool light_continues = false;           ///< The world has not changed since the previous frame.
-  const MovedParts* moved = nullptr;      ///< Where it has changed by these parts alone; else null.
+  const ChangedLight* changed = nullptr;  ///< How it has changed; null where that is unknown.
   std::uint32_t first_sample = 0;         ///< Index of the frame's first sample among all samples.
   const TaaSequence* sequence = nullptr;  ///< Null: no temporal anti-aliasing.
   SampleRound round = {};                 ///< Which samples are taken, and of which pixels.

@@ -4,10 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include "core/image/metrics.h"
 #include "lambent/renderer.h"
+#include "shared/random.h"
 #include "support/field_scenes.h"
 #include "support/hand_made.h"
 
@@ -24,15 +27,15 @@ Bounds box_at(const vec3& center, float half) {
 TEST(MovedParts, CountForLessTheFartherTheyAre) {
   const std::vector<Bounds> moved = {box_at({0.0f, 1.0f, 0.0f}, 0.5f)};
   const MovedParts parts(moved, {});
-  EXPECT_EQ(parts.frames_of_surface({0.0f, 0.4f, 0.0f}, kUp), 1.0f);
-  const float near = parts.frames_of_surface({1.5f, 0.4f, 0.0f}, kUp);
-  const float far = parts.frames_of_surface({2.0f, 0.4f, 0.0f}, kUp);
+  EXPECT_EQ(parts.frames_of_gathers({0.0f, 0.4f, 0.0f}, kUp), 1.0f);
+  const float near = parts.frames_of_gathers({1.5f, 0.4f, 0.0f}, kUp);
+  const float far = parts.frames_of_gathers({2.0f, 0.4f, 0.0f}, kUp);
   EXPECT_GT(near, 1.0f);
   EXPECT_GT(far, near);
-  const float most = parts.frames_of_surface({50.0f, 0.4f, 0.0f}, kUp);
+  const float most = parts.frames_of_gathers({50.0f, 0.4f, 0.0f}, kUp);
   EXPECT_GT(most, far);
   // What is below a surface's horizon sends no light there
-  EXPECT_EQ(parts.frames_of_surface({0.0f, 2.5f, 0.0f}, kUp), most);
+  EXPECT_EQ(parts.frames_of_gathers({0.0f, 2.5f, 0.0f}, kUp), most);
 }
 
 TEST(MovedParts, ContainTheirSurfacesAndNotWhatIsBesideThem) {
@@ -50,10 +53,55 @@ TEST(MovedParts, ContainTheirSurfacesAndNotWhatIsBesideThem) {
 TEST(MovedParts, EndAveragesInTheShadowsOfLamps) {
   const std::vector<Bounds> moved = {box_at({0.0f, 6.0f, 0.0f}, 0.1f)}, lamps = {kLamp};
   const MovedParts parts(moved, lamps);
-  EXPECT_EQ(parts.frames_of_surface({0.0f, 0.0f, 0.0f}, kUp), 1.0f);
-  EXPECT_GT(parts.frames_of_surface({8.0f, 0.0f, 0.0f}, kUp), 4.0f);
-  // Above the lamp the part is not in the way
-  EXPECT_GT(parts.frames_of_surface({0.0f, 20.0f, 0.0f}, -kUp), 4.0f);
+  EXPECT_EQ(parts.frames_of_emitters({0.0f, 0.0f, 0.0f}, kUp), 1.0f);
+  EXPECT_GT(parts.frames_of_emitters({8.0f, 0.0f, 0.0f}, kUp), 4.0f);
+  // Above the lamp the part is not in the way, and lamps below the horizon are hidden anyway
+  EXPECT_GT(parts.frames_of_emitters({0.0f, 20.0f, 0.0f}, -kUp), 4.0f);
+  EXPECT_GT(parts.frames_of_emitters({0.0f, 0.0f, 0.0f}, -kUp), 4.0f);
+  // What bounces there from elsewhere changes little
+  EXPECT_GT(parts.frames_of_gathers({0.0f, 0.0f, 0.0f}, kUp), 4.0f);
+}
+
+TEST(MovedParts, EndNoAveragesBesideALongStrip) {
+  // A strip of light along one wall of a room, and a thing that moves along its middle
+  const std::vector<Bounds> strip = {{{-2.4f, 2.38f, 1.9f}, {2.4f, 2.4f, 1.93f}}};
+  const std::vector<Bounds> moved = {box_at({0.1f, 0.8f, 0.2f}, 0.1f)};
+  const MovedParts parts(moved, strip);
+  const auto along = [&](float x) { return parts.frames_of_emitters({x, 0.0f, -1.5f}, kUp); };
+  EXPECT_EQ(parts.frames_of_emitters({0.1f, 0.2f, -0.4f}, kUp), 1.0f);
+  // From these, all of the strip is seen past the thing, though not past a sphere around the strip
+  for (const float x : {-1.5f, 0.1f, 1.5f}) EXPECT_GT(along(x), 4.0f) << x;
+}
+
+TEST(MovedParts, ShadeWhatRaysToLightsMeetThemFrom) {
+  // Against rays from random places to all corners and to random points of boxes of lights
+  RandomStream random = make_random_stream(1u, 2u, 3u);
+  const auto anywhere = [&] {
+    const vec2 xy = next_uniform2(random);
+    return 4.0f * vec3(xy.x, xy.y, next_uniform(random)) - 2.0f;
+  };
+  int shaded = 0, missed = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const std::vector<Bounds> lights = {box_at(anywhere(), 0.5f)},
+                              part = {box_at(anywhere(), 0.3f)};
+    const vec3 place = anywhere();
+    const bool tells = MovedParts(part, lights).frames_of_emitters(place, vec3(0.0f)) == 1.0f;
+    bool meets = false;
+    for (int k = 0; k < 256 && !meets; ++k) {
+      const vec3 offset(next_uniform(random), next_uniform(random), next_uniform(random));
+      const vec3 way = lights[0].min + offset * (lights[0].max - lights[0].min) - place;
+      const vec3 a = (part[0].min - place) / way, b = (part[0].max - place) / way;
+      const vec3 first = glm::min(a, b), last = glm::max(a, b);
+      meets =
+          std::max({first.x, first.y, first.z, 0.0f}) <= std::min({last.x, last.y, last.z, 1.0f});
+    }
+    EXPECT_TRUE(tells || !meets);
+    shaded += tells ? 1 : 0;
+    missed += tells && !meets ? 1 : 0;
+  }
+  EXPECT_GT(shaded, 200);
+  // Random rays miss what is only just in the way
+  EXPECT_LT(missed, shaded / 10);
 }
 
 TEST(MovedParts, EndAveragesOfLobesThatMayShowThem) {
@@ -74,20 +122,30 @@ TEST(MovedParts, EndAveragesOfLobesThatMayShowThem) {
   EXPECT_GT(parts.frames_of_lobe(place, lobe(past, 0.01f, 0.2f)), 1.0f);
 }
 
-TEST(MovedParts, AreUnknownWhereEditsRelight) {
+TEST(ChangedLight, IsThatOfPartsAndOfLights) {
   Scene scene;
   scene.materials = {test::lambert(glm::vec3(0.5f))};
   test::add_room(scene, 4.0f, 0);
+  scene.lights = {test::point_light(glm::vec3(1.0f), glm::vec3(0.0f))};
   World world(scene);
-  EXPECT_TRUE(moved_since(world, 0));
+  const auto change = [&](std::uint64_t since) { return light_changed_since(world, since); };
+  EXPECT_FALSE(change(0)->relit);
   scene.instances[0].world_from_object[3].y -= 1.0f;
   ASSERT_TRUE(world.update());
-  EXPECT_TRUE(moved_since(world, 0));
+  EXPECT_FALSE(change(0)->relit);
+  EXPECT_TRUE(change(0)->moved.contain({0.0f, -3.0f, 0.0f}));
+  scene.lights[0].intensity *= 2.0f;
+  ASSERT_TRUE(world.update());
+  EXPECT_TRUE(change(0)->relit);
+  EXPECT_FALSE(change(0)->emitters);
+  EXPECT_LE(change(1)->frames_of_gathers(vec3(0.0f), kUp), 4.0f);
+  EXPECT_GT(change(1)->frames_of_gathers(vec3(0.0f), kUp), 1.0f);
   scene.environment.radiance = glm::vec3(2.0f);
   ASSERT_TRUE(world.update());
-  EXPECT_FALSE(moved_since(world, 0));
-  EXPECT_TRUE(moved_since(world, 2));
-  EXPECT_FALSE(moved_since(world, 7));
+  EXPECT_TRUE(change(0)->emitters);
+  EXPECT_EQ(change(2)->frames_of_emitters(vec3(0.0f), kUp), 1.0f);
+  EXPECT_FALSE(change(3)->relit);
+  EXPECT_FALSE(change(8));
 }
 
 /// The error of a layer against the same without noise.
@@ -98,11 +156,15 @@ double error_of(const RenderedFrame& frame, const RenderedFrame& truth, const ch
       .relative_rmse;
 }
 
-TEST(MovedParts, LeaveAveragesElsewhereAsTheyAre) {
-  Scene scene = scenes::make("cornell").value();
-  // The last instance, a block, becomes small, and moves along the floor
-  glm::mat4& block = scene.instances.back().world_from_object;
-  block = glm::mat4(glm::mat3(0.3f)) * block;
+/// Errors of sequences in which something changes from frame to frame.
+struct SequenceErrors {
+  double averaged = 0.0, alone = 0.0;
+};
+
+/// The errors of two layers, irradiance and direct, of a scene that `change` edits before each
+/// frame: of frames that are averaged, and without averages.
+template <class Change>
+std::array<SequenceErrors, 2> errors_of(Scene& scene, Change change) {
   World world(scene);
   FieldSettings of_field;
   of_field.probe_count = glm::ivec3(6);
@@ -125,26 +187,54 @@ TEST(MovedParts, LeaveAveragesElsewhereAsTheyAre) {
   // A single frame's error is chance
   constexpr int kFrames = 12, kCompared = 6;
   const char* const layers[] = {"irradiance", "direct"};
-  double now[2] = {}, before[2] = {};
+  std::array<SequenceErrors, 2> errors;
   for (int i = 0; i < kFrames; ++i) {
-    block[3].x += 0.01f;
-    ASSERT_TRUE(world.update());
+    change();
+    EXPECT_TRUE(world.update());
     field.update(world);
     single.seed = 10 + static_cast<std::uint32_t>(i);
     const RenderedFrame averaged = averaging.render(camera, settings).value();
     const RenderedFrame without = alone.render(camera, single).value();
     if (i < kFrames - kCompared) continue;
     const RenderedFrame truth = Renderer(world, {.field = &field}).render(camera, exact).value();
-    for (int k = 0; k < 2; ++k) {
-      now[k] += error_of(averaged, truth, layers[k]) / kCompared;
-      before[k] += error_of(without, truth, layers[k]) / kCompared;
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+      errors[k].averaged += error_of(averaged, truth, layers[k]) / kCompared;
+      errors[k].alone += error_of(without, truth, layers[k]) / kCompared;
     }
   }
-  for (int k = 0; k < 2; ++k) {
-    std::printf("%s: error %.4f, %.4f without averages\n", layers[k], now[k], before[k]);
-    // Edges that single samples miss are most of the error of direct light
-    EXPECT_LT(now[k], (k == 0 ? 0.85 : 1.02) * before[k]) << layers[k];
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    std::printf("%s: error %.4f, %.4f without averages\n", layers[k], errors[k].averaged,
+                errors[k].alone);
   }
+  return errors;
+}
+
+/// The Cornell box, whose last instance is a small block.
+Scene box_with_small_block() {
+  Scene scene = scenes::make("cornell").value();
+  glm::mat4& block = scene.instances.back().world_from_object;
+  block = glm::mat4(glm::mat3(0.3f)) * block;
+  return scene;
+}
+
+TEST(MovedParts, LeaveAveragesElsewhereAsTheyAre) {
+  Scene scene = box_with_small_block();
+  glm::mat4& block = scene.instances.back().world_from_object;
+  const auto [irradiance, direct] = errors_of(scene, [&] { block[3].x += 0.01f; });
+  EXPECT_LT(irradiance.averaged, 0.85 * irradiance.alone);
+  // Edges that single samples miss are most of the error of direct light
+  EXPECT_LT(direct.averaged, 1.02 * direct.alone);
+}
+
+TEST(ChangedLight, LeavesFewerFramesOfGatheredLight) {
+  // A lamp that moves through the box
+  Scene scene = box_with_small_block();
+  for (Material& material : scene.materials) material.emission *= 0.1f;
+  scene.lights = {test::point_light(glm::vec3(0.3f), glm::vec3(0.3f, 0.7f, 0.5f))};
+  const auto [irradiance, direct] =
+      errors_of(scene, [&] { scene.lights[0].position_ws.x += 0.02f; });
+  EXPECT_LT(irradiance.averaged, 0.85 * irradiance.alone);
+  EXPECT_LT(direct.averaged, 1.02 * direct.alone);
 }
 
 TEST(MovedParts, ShowWhatTheirRaysBringThoughTheFieldLags) {

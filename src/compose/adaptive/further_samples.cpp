@@ -59,7 +59,7 @@ const FrameRequest* FurtherSamples::start_round() {
                               settings_,
                               request_.before,
                               request_.light_continues,
-                              request_.moved,
+                              request_.changed,
                               request_.first_sample,
                               request_.sequence,
                               {taken, skipped_}});

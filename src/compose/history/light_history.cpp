@@ -21,10 +21,11 @@ void average_variance(const std::vector<float>& before, const HistoryTaps& taps,
 }
 
 /// Averages what a pixel gathers over at most `most` frames, over fewer where its lookup has
-/// changed. Excess of what moves is shown as it is: where the field lags behind them, most
-/// rays bring more than their lookups.
-void average_gathered(const LightHistory& last, const HistoryTaps& taps, float most, bool moves,
-                      std::size_t i, FilteredPixels& pixels, LightHistory& next) {
+/// changed. Excess is averaged over many: it starts anew where light changed everywhere. That of
+/// what moves is shown as it is: where the field lags behind them, most rays bring more than their
+/// lookups.
+void average_gathered(const LightHistory& last, const HistoryTaps& taps, float most, bool relit,
+                      bool moves, std::size_t i, FilteredPixels& pixels, LightHistory& next) {
   vec3& difference = next.differences[i] = pixels.gathered[i] - pixels.looked_up[i];
   float& looked_up = next.looked_up[i] = luminance(pixels.looked_up[i]);
   float& frames = next.gathered_frames[i] = 1.0f;
@@ -34,7 +35,8 @@ void average_gathered(const LightHistory& last, const HistoryTaps& taps, float m
   }
   average(last.differences, taps, frames, difference);
   average(last.looked_up, taps, frames, looked_up);
-  next.excess[i] = averaged_excess(weighted_sum(last.excess, taps), pixels.excess[i]);
+  const vec3 excess = relit ? vec3(0.0f) : weighted_sum(last.excess, taps);
+  next.excess[i] = averaged_excess(excess, pixels.excess[i]);
   if (!moves) pixels.excess[i] = next.excess[i];
   pixels.gathered[i] = pixels.looked_up[i] + difference;
   if (pixels.gathered_variance.empty()) return;
@@ -102,13 +104,15 @@ void average_reflections(const FrameAveraging& by, const LightHistory& last, boo
 void average_light(const FrameRequest& request, const LightHistory& last, FilteredPixels& pixels,
                    LightHistory& next) {
   const FrameSettings& settings = request.settings;
+  const ChangedLight* changed = request.changed;
   const FrameAveraging by{
       {settings.width, settings.height},
       motion_views(request.camera, settings.width, settings.height, request.before),
       static_cast<float>(settings.averaged_frames),
-      request.moved};
+      changed != nullptr ? &changed->moved : nullptr};
+  const bool relit = changed != nullptr && changed->relit;
   const bool continues =
-      (request.light_continues || by.moved != nullptr) && has_same_light(last, pixels);
+      (request.light_continues || changed != nullptr) && has_same_light(last, pixels);
   const CameraRecord& camera = by.views.now;
   shape(pixels, next);
   parallel_chunks(pixels.depths.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
@@ -130,19 +134,21 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
             depth_tolerance(depth, pixel_width_at_depth(camera, depth), dot(normal_ws, to_viewer)),
             normal_ws);
       }
-      float frames = 1.0f, most = 1.0f;
+      float frames = 1.0f, most_gathers = by.most_frames;
       if (is_history(taps)) {
-        most = by.most_frames;
-        if (by.moved != nullptr) {
-          most = std::min(most, by.moved->frames_of_surface(pixels.positions_ws[i],
-                                                            pixels.geometric_normals_ws[i]));
+        float most = by.most_frames;
+        if (changed != nullptr) {
+          const vec3 &position_ws = pixels.positions_ws[i],
+                     &normal_ws = pixels.geometric_normals_ws[i];
+          most = std::min(most, changed->frames_of_emitters(position_ws, normal_ws));
+          most_gathers = std::min(most_gathers, changed->frames_of_gathers(position_ws, normal_ws));
         }
         frames = averaged_frames(weighted_sum(last.frames, taps), most);
       }
       next.frames[i] = frames;
       if (!pixels.gathered.empty()) {
         const bool moves = by.moved != nullptr && by.moved->contain(pixels.positions_ws[i]);
-        average_gathered(last, taps, most, moves, i, pixels, next);
+        average_gathered(last, taps, most_gathers, relit, moves, i, pixels, next);
       }
       if (!pixels.emitters.empty()) {
         average(last.emitters, taps, frames, pixels.emitters[i]);
@@ -154,7 +160,7 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
       }
     }
   });
-  average_reflections(by, last, continues, pixels, next);
+  average_reflections(by, last, continues && !relit, pixels, next);
   next.is_there = true;
 }
 

@@ -28,9 +28,8 @@ struct LightHistory {
 
 /// Averages the light that is to be filtered with that of previous frames, where the same surface
 /// was seen, or lobes showed the same part of the scene. Light through glass is left alone. Stores
-/// the average for the next frame. `last` is read where it is valid and request.light_continues or
-/// request.moved;
-/// `next` is written.
+/// the average for the next frame. `last` is read where it is valid and light continues, or it is
+/// known how it has changed; `next` is written.
 void average_light(const FrameRequest& request, const LightHistory& last, FilteredPixels& pixels,
                    LightHistory& next);
 

@@ -36,7 +36,7 @@ struct FrameAveraging {
   ivec2 size;                         ///< Of the picture [pixels].
   MotionViews views;                  ///< Of this frame and of the previous one.
   float most_frames;                  ///< A new frame counts at least as one of so many, >= 1.
-  const MovedParts* moved = nullptr;  ///< See FrameRequest.
+  const MovedParts* moved = nullptr;  ///< Since the previous frame; null: none.
 };
 
 /// Averages reflected light with that of the previous frame, `last`, and stores the average in

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "raytracing/raytracer.h"
@@ -16,6 +17,10 @@ namespace {
 // Most frames over which light is averaged while things move. Their shadows may change bounced
 // light far from them: a third of the old light is left after as many frames.
 constexpr float kMaxFrames = 8.0f;
+// The same where lights, materials or the sky change from frame to frame. The field follows them,
+// and gathered light is averaged as its difference from the field's: three quarters of its noise
+// are gone after as many frames.
+constexpr float kMaxRelitFrames = 4.0f;
 // With more moving parts than this, light is taken to change everywhere: each costs time at every
 // pixel.
 constexpr std::size_t kMaxParts = 32;
@@ -39,34 +44,65 @@ float angle_between(const vec3& a, const vec3& b) {
   return scale > 0.0f ? std::acos(std::clamp(dot(a, b) / scale, -1.0f, 1.0f)) : 0.0f;
 }
 
+std::vector<Bounds> without_empty(std::span<const Bounds> boxes) {
+  std::vector<Bounds> kept;
+  std::ranges::copy_if(boxes, std::back_inserter(kept),
+                       [](const Bounds& box) { return !box.empty(); });
+  return kept;
+}
+
+/// Whether any of a box is above the horizon of a surface.
+bool reaches_above(const Bounds& box, const vec3& position_ws, const vec3& normal_ws) {
+  const vec3 highest(normal_ws.x > 0.0f ? box.max.x : box.min.x,
+                     normal_ws.y > 0.0f ? box.max.y : box.min.y,
+                     normal_ws.z > 0.0f ? box.max.z : box.min.z);
+  return dot(highest - position_ws, normal_ws) >= 0.0f;
+}
+
+/// Whether a part's box meets any segment from a point to a box of lights. After a share s of their
+/// lengths, the segments' points fill a box p + s (lights - p), each of whose faces is on the right
+/// side of the part's opposite face within an interval of s: they meet where the intervals do.
+/// Based on: Haines and Wallace, "Shaft Culling for Efficient Ray-Cast Radiosity", EGWR 1991.
+bool may_shade(const Bounds& part, const vec3& position_ws, const Bounds& lights) {
+  float first = 0.0f, last = 1.0f;
+  // Holds the interval to what fulfils distance <= s * slope
+  const auto hold = [&](float distance, float slope) {
+    if (slope > 0.0f) {
+      first = std::max(first, distance / slope);
+    } else if (slope < 0.0f) {
+      last = std::min(last, distance / slope);
+    } else if (distance > 0.0f) {
+      last = -1.0f;
+    }
+  };
+  for (int k = 0; k < 3; ++k) {
+    hold(part.min[k] - position_ws[k], lights.max[k] - position_ws[k]);
+    hold(position_ws[k] - part.max[k], position_ws[k] - lights.min[k]);
+  }
+  return first <= last;
+}
+
 }  // namespace
 
 MovedParts::MovedParts(std::span<const Bounds> moved, std::span<const Bounds> emitters)
-    : boxes_(moved.begin(), moved.end()), moved_(around(moved)), emitters_(around(emitters)) {}
-
-std::vector<MovedParts::BoundingSphere> MovedParts::around(std::span<const Bounds> boxes) {
-  std::vector<BoundingSphere> spheres;
-  for (const Bounds& box : boxes) {
-    if (!box.empty()) {
-      spheres.push_back({0.5f * box.min + 0.5f * box.max, 0.5f * length(box.max - box.min)});
-    }
+    : boxes_(without_empty(moved)), emitters_(without_empty(emitters)) {
+  for (const Bounds& box : boxes_) {
+    spheres_.push_back({0.5f * box.min + 0.5f * box.max, 0.5f * length(box.max - box.min)});
   }
-  return spheres;
 }
 
 bool MovedParts::contain(const vec3& position_ws) const {
   return std::any_of(boxes_.begin(), boxes_.end(), [&](const Bounds& box) {
-    if (box.empty()) return false;
     const vec3 margin(kBoxMargin * length(box.max - box.min));
     return glm::all(glm::greaterThanEqual(position_ws, box.min - margin)) &&
            glm::all(glm::lessThanEqual(position_ws, box.max + margin));
   });
 }
 
-float MovedParts::frames_around(const vec3& position_ws, const vec3& normal_ws) const {
+float MovedParts::frames_of_gathers(const vec3& position_ws, const vec3& normal_ws) const {
   // Old light may be wrong by about the share of the light's directions that the parts fill
   float share = 0.0f;
-  for (const BoundingSphere& part : moved_) {
+  for (const BoundingSphere& part : spheres_) {
     const vec3 way = part.center_ws - position_ws;
     // What is below the horizon sends no light
     if (dot(way, normal_ws) < -part.radius) continue;
@@ -77,32 +113,21 @@ float MovedParts::frames_around(const vec3& position_ws, const vec3& normal_ws) 
   return 1.0f / std::clamp(share, 1.0f / kMaxFrames, 1.0f);
 }
 
-bool MovedParts::may_shade(const BoundingSphere& part, const vec3& position_ws) const {
-  const vec3 to_part = part.center_ws - position_ws;
-  const float part_distance = length(to_part);
-  const float part_angle = angular_radius(part.radius, part_distance);
-  return std::any_of(emitters_.begin(), emitters_.end(), [&](const BoundingSphere& lights) {
-    const vec3 to_lights = lights.center_ws - position_ws;
-    const float distance = length(to_lights);
-    if (part_distance - part.radius > distance + lights.radius) return false;
-    return angle_between(to_part, to_lights) <=
-           part_angle + angular_radius(lights.radius, distance);
+float MovedParts::frames_of_emitters(const vec3& position_ws, const vec3& normal_ws) const {
+  const bool shaded = std::any_of(emitters_.begin(), emitters_.end(), [&](const Bounds& lights) {
+    if (!reaches_above(lights, position_ws, normal_ws)) return false;
+    return std::any_of(boxes_.begin(), boxes_.end(), [&](const Bounds& part) {
+      return reaches_above(part, position_ws, normal_ws) && may_shade(part, position_ws, lights);
+    });
   });
-}
-
-float MovedParts::frames_of_surface(const vec3& position_ws, const vec3& normal_ws) const {
-  const bool shaded = std::any_of(moved_.begin(), moved_.end(), [&](const BoundingSphere& part) {
-    return dot(part.center_ws - position_ws, normal_ws) >= -part.radius &&
-           may_shade(part, position_ws);
-  });
-  return shaded ? 1.0f : frames_around(position_ws, normal_ws);
+  return shaded ? 1.0f : kMaxFrames;
 }
 
 float MovedParts::frames_of_lobe(const vec3& position_ws, const LobeGuide& lobe) const {
   const float reach = kLobeReach * inversesqrt(lobe.sharpness);
   const float distance =
       lobe.inverse_distance > 0.0f ? 1.0f / lobe.inverse_distance : kInfiniteDistance;
-  for (const BoundingSphere& part : moved_) {
+  for (const BoundingSphere& part : spheres_) {
     const vec3 way = part.center_ws - position_ws;
     const float part_distance = length(way);
     if (part_distance - part.radius > distance) continue;
@@ -111,15 +136,29 @@ float MovedParts::frames_of_lobe(const vec3& position_ws, const LobeGuide& lobe)
     }
   }
   if (distance == kInfiniteDistance) return kMaxFrames;
-  return frames_of_surface(position_ws + distance * lobe.mirror_ws, vec3(0.0f));
+  const vec3 shown_ws = position_ws + distance * lobe.mirror_ws;
+  return std::min(frames_of_gathers(shown_ws, vec3(0.0f)),
+                  frames_of_emitters(shown_ws, vec3(0.0f)));
 }
 
-std::optional<MovedParts> moved_since(const World& world, std::uint64_t revision) {
+float ChangedLight::frames_of_gathers(const vec3& position_ws, const vec3& normal_ws) const {
+  const float frames = moved.frames_of_gathers(position_ws, normal_ws);
+  return relit ? std::min(frames, kMaxRelitFrames) : frames;
+}
+
+float ChangedLight::frames_of_emitters(const vec3& position_ws, const vec3& normal_ws) const {
+  return emitters ? 1.0f : moved.frames_of_emitters(position_ws, normal_ws);
+}
+
+std::optional<ChangedLight> light_changed_since(const World& world, std::uint64_t revision) {
   const auto edits = world.changes_since(revision);
-  if (!edits || std::ranges::any_of(*edits, &WorldChanges::relights)) return std::nullopt;
+  if (!edits) return std::nullopt;
   std::vector<Bounds> moved;
+  bool relit = false, emission = false;
   for (const WorldChanges& edit : *edits) {
     moved.insert(moved.end(), edit.moved.begin(), edit.moved.end());
+    relit = relit || edit.relights();
+    emission = emission || edit.emission || edit.environment || !edit.materials.empty();
   }
   if (moved.size() > kMaxParts) return std::nullopt;
   std::vector<Bounds> emitters;
@@ -129,7 +168,7 @@ std::optional<MovedParts> moved_since(const World& world, std::uint64_t revision
     emitters.push_back(
         {groups[i].center_ws - groups[i].half_size, groups[i].center_ws + groups[i].half_size});
   }
-  return MovedParts(moved, emitters);
+  return ChangedLight{MovedParts(moved, emitters), relit, emission};
 }
 
 }  // namespace lambent

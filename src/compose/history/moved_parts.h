@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far averages of light may reach back where parts of the world have moved.
+// How far averages of light may reach back where the world has changed.
 #pragma once
 
 #include <optional>
@@ -22,10 +22,13 @@ class MovedParts {
   /// Whether a point may be on one of the parts: it is in the box around one.
   bool contain(const vec3& position_ws) const;
 
-  /// The largest number of frames, >= 1, over which the light of a surface may be averaged:
-  /// irradiance from emissive surfaces, and what gathered light differs by from the field's, which
-  /// follows edits at once.
-  float frames_of_surface(const vec3& position_ws, const vec3& normal_ws) const;
+  /// The largest number of frames, >= 1, over which gathered light of a surface may be averaged, as
+  /// its difference from the field's, which follows edits at once.
+  float frames_of_gathers(const vec3& position_ws, const vec3& normal_ws) const;
+
+  /// The same for irradiance from emissive surfaces, which changes where parts may shade them.
+  /// `normal_ws` of 0: that from all sides.
+  float frames_of_emitters(const vec3& position_ws, const vec3& normal_ws) const;
 
   /// The same for what a lobe of some sharpness at a surface reflects.
   float frames_of_lobe(const vec3& position_ws, const LobeGuide& lobe) const;
@@ -35,17 +38,26 @@ class MovedParts {
     vec3 center_ws;
     float radius;  // [m]
   };
-  static std::vector<BoundingSphere> around(std::span<const Bounds> boxes);
-  /// The largest number for light that comes from all sides of a point.
-  float frames_around(const vec3& position_ws, const vec3& normal_ws) const;
-  bool may_shade(const BoundingSphere& part, const vec3& position_ws) const;
 
-  std::vector<Bounds> boxes_;  // around all that moved
-  std::vector<BoundingSphere> moved_, emitters_;
+  std::vector<Bounds> boxes_, emitters_;  // none of them empty
+  std::vector<BoundingSphere> spheres_;   // around the boxes
 };
 
-/// The parts that moved since a revision of the world; none where light may have changed
-/// everywhere, because an edit relights, there are too many parts, or they are no longer on record.
-std::optional<MovedParts> moved_since(const World& world, std::uint64_t revision);
+/// How light differs from that of a previous frame.
+struct ChangedLight {
+  MovedParts moved;
+  bool relit = false;     ///< Lights, materials or the sky differ.
+  bool emitters = false;  ///< Not only punctual lights do.
+
+  /// The largest number of frames, >= 1, over which gathered light of a surface may be averaged.
+  float frames_of_gathers(const vec3& position_ws, const vec3& normal_ws) const;
+
+  /// The same for irradiance from emissive surfaces.
+  float frames_of_emitters(const vec3& position_ws, const vec3& normal_ws) const;
+};
+
+/// How light has changed since a revision of the world; none where it may be anyhow, as there are
+/// too many moved parts, or changes are no longer on record.
+std::optional<ChangedLight> light_changed_since(const World& world, std::uint64_t revision);
 
 }  // namespace lambent
