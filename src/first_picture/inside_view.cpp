@@ -72,6 +72,9 @@ constexpr float kDepthWeight = 2.0f, kDetailWeight = 0.8f, kLitWeight = 0.6f, kN
                 kSkyWeight = 1.5f, kBackWeight = 0.8f;
 // A view with less depth than this share of the diagonal, or with more backs, is rejected.
 constexpr float kMinDepth = 0.06f, kMaxBacks = 0.6f;
+// Where the unit is the metre, this clearance and this depth [m] are enough, however large the
+// scene is: in a town the ground before one's feet and the houses across the street are near.
+constexpr float kEnoughClearance = 1.0f, kEnoughDepth = 5.0f;
 
 float height_of(const OpenPlace& place) {
   return place.ceiling - place.floor;
@@ -125,9 +128,15 @@ std::vector<OpenPlace> lit_places(const World& world, const std::vector<OpenPlac
   return static_cast<float>(lit.size()) >= needed && !lit.empty() ? lit : places;
 }
 
+/// A least distance, a share of the scene's diagonal, at a place where `enough` is enough [m].
+float least_distance(float share, float enough, const OpenPlace& place, float scale) {
+  return has_human_scale(place) ? std::min(share * scale, enough) : share * scale;
+}
+
 /// The hits of rays around an eye: kRings.size() rings of kRingRays hits.
 struct Panorama {
   glm::vec3 eye{0.0f};
+  float least_depth = 0.0f;  ///< Of views [m].
   const Hit* hits = nullptr;
   const std::uint8_t* lit = nullptr;  ///< 1 for each hit that one of the lights reaches.
 };
@@ -200,7 +209,7 @@ float score_view(const Scene& scene, const Panorama& panorama, int direction, fl
   }
   if (sky == rays || backs > kMaxBacks * rays) return -kInfiniteDistance;
   const float depth = depths / (rays - sky);
-  if (depth < kMinDepth) return -kInfiniteDistance;
+  if (depth * scale < panorama.least_depth) return -kInfiniteDistance;
   // Count triangles logarithmically: a window in a wall matters more than one more leaf in a wood
   const float detail = std::log1p(static_cast<float>(triangles.size())) / std::log1p(rays);
   return kDepthWeight * depth / kDeep + kDetailWeight * detail + kLitWeight * lit / rays -
@@ -235,13 +244,14 @@ std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
   float best = -kInfiniteDistance;
   std::optional<Camera> camera;
   for (std::size_t e = 0; e < eyes; ++e) {
-    const Panorama panorama{rays[e * kPanoramaRays].origin, &hits[e * kPanoramaRays],
-                            &lit[e * kPanoramaRays]};
+    const Panorama panorama{rays[e * kPanoramaRays].origin,
+                            least_distance(kMinDepth, kEnoughDepth, places[e], scale),
+                            &hits[e * kPanoramaRays], &lit[e * kPanoramaRays]};
     const float nearest =
         std::min_element(panorama.hits, panorama.hits + kPanoramaRays,
                          [](const Hit& a, const Hit& b) { return a.distance < b.distance; })
             ->distance;
-    if (nearest < kClearance * scale) continue;
+    if (nearest < least_distance(kClearance, kEnoughClearance, places[e], scale)) continue;
     for (int d = 0; d < kViewDirections; ++d) {
       const float score = score_view(world.scene(), panorama, d, half_width, scale);
       if (score <= best) continue;

@@ -24,6 +24,9 @@ constexpr int kRaysAround = 128;
 constexpr float kMaxBackdrop = 0.5f;
 // Panels of light have at most as many triangles as a box.
 constexpr std::size_t kMaxPanelTriangles = 12;
+// Housings of panels of light are at most this far from them, and between these sizes, as shares of
+// the panel's diagonal: a bottle that stands on a panel is smaller.
+constexpr float kMaxHousingDistance = 0.25f, kMinHousing = 0.6f, kMaxHousing = 1.6f;
 // Strays are at least this many diagonals of the rest, and of each of them, away from the rest: in
 // a picture of all, there would be specks alone.
 constexpr float kStrayDistance = 10.0f;
@@ -183,6 +186,24 @@ bool is_panel_of_light(const Scene& scene, std::uint32_t instance) {
          scene.materials[mesh.material].emission != glm::vec3(0.0f);
 }
 
+/// Removes panels of light, and what they are mounted in.
+void drop_lights(const Scene& scene, std::span<const Bounds> boxes,
+                 std::vector<std::uint32_t>& members) {
+  std::vector<Bounds> panels;
+  for (const std::uint32_t i : members) {
+    if (is_panel_of_light(scene, i)) panels.push_back(boxes[i]);
+  }
+  std::erase_if(members, [&](std::uint32_t i) {
+    if (is_panel_of_light(scene, i)) return true;
+    const float size = diagonal(boxes[i]);
+    return std::any_of(panels.begin(), panels.end(), [&](const Bounds& panel) {
+      const float panel_size = diagonal(panel);
+      return size >= kMinHousing * panel_size && size <= kMaxHousing * panel_size &&
+             distance_between(boxes[i], panel) <= kMaxHousingDistance * panel_size;
+    });
+  });
+}
+
 /// The subject among the instances `members`.
 Subject find_subject_among(const World& world, std::span<const Bounds> boxes,
                            std::vector<std::uint32_t> members) {
@@ -224,7 +245,7 @@ Subject find_subject_in_light(const World& world, std::span<const Bounds> boxes,
                               const std::vector<std::uint32_t>& all) {
   Subject subject = find_subject_among(world, boxes, all);
   std::vector<std::uint32_t> others = all;
-  std::erase_if(others, [&](std::uint32_t i) { return is_panel_of_light(world.scene(), i); });
+  drop_lights(world.scene(), boxes, others);
   if (others.size() == all.size()) return subject;
   // Panels of light that keep a backdrop from being found hang around what stands before it
   const std::size_t dropped = all.size() - subject.instances.size();

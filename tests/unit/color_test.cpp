@@ -54,6 +54,20 @@ TEST(ToneMap, AcesKeepsGreysGreyAndMatchesItsCurve) {
   EXPECT_NEAR(shown.y, 0.10562f, 1e-4f);
 }
 
+TEST(ToneMap, AcesKeepsTheHuesOfWhatGlows) {
+  // A flame is as orange however bright it is, where the curve by itself would show it white
+  const vec3 flame(1.0f, 0.3f, 0.02f);
+  const vec3 dim = tone_map(kGlowPeak * flame, kToneMapAces);
+  EXPECT_LT(dim.z, 0.3f * dim.x);
+  EXPECT_GT(tone_map_aces(500.0f * flame).z, 0.9f);
+  const vec3 bright = tone_map(500.0f * flame, kToneMapAces);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(bright[c], dim[c], 1e-4f);
+  // What is no brighter, and greys, are as the curve has them
+  for (const vec3& color : {vec3(1.9f, 0.2f, 0.0f), vec3(9.0f)}) {
+    EXPECT_EQ(tone_map(color, kToneMapAces), clamp(tone_map_aces(color), vec3(0.0f), vec3(1.0f)));
+  }
+}
+
 TEST(ToneMap, NeutralReturnsTheBaseColorUnderADielectric) {
   // What a viewer sees of base colour c under uniform white light is c + 0.04; the curve takes 0.04
   // away.

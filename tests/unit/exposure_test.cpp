@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "shared/lang.h"
+
 namespace lambent::exposure_test {
 namespace {
 
@@ -135,9 +137,11 @@ TEST(Exposure, ShowsWhatStandsInSpotLights) {
   const auto shown = [](const LayeredImage& frame) { return 1.28 * display_exposure(frame); };
   const double patch = shown(stage(0.08, 0.1f)), spot = shown(stage(0.12, 0.1f));
   EXPECT_NEAR(std::log2(shown(stage(0.08, 0.0f)) / patch), 0.0, 0.01) << "small";
-  EXPECT_NEAR(std::log2(shown(stage(0.12, 0.0f)) / spot), 2.0, 0.01) << "sky";
-  // 3 stops above mid-grey, or 2 stops lower than without
-  EXPECT_NEAR(std::log2(spot / patch), -2.0 - 3.0 * 0.04, 0.1);
+  // Without, it would be as many stops more than 3 above mid-grey; of 2 and half of the others it
+  // is shown darker
+  const double lowered = 2.0 + 0.5 * (7.0 - 3.0 * 0.12 - 3.0 - 2.0);
+  EXPECT_NEAR(std::log2(shown(stage(0.12, 0.0f)) / spot), lowered, 0.1) << "sky";
+  EXPECT_NEAR(std::log2(spot / patch), -lowered - 3.0 * 0.04, 0.1);
   EXPECT_GE(std::log2(spot / 0.18), 3.0 - 0.07);
 }
 
@@ -165,10 +169,30 @@ TEST(Exposure, LeavesAStreetOfNeonSignsDark) {
            3.0 * share;
   };
   EXPECT_NEAR(lowered(0.03, 7.5 + 0.09), 0.5 * (7.5 - 5.0), 0.1);
-  EXPECT_NEAR(lowered(0.03, 20.0), 2.0, 0.1) << "at most 2 stops";
+  EXPECT_NEAR(lowered(0.03, 11.0 + 0.09), 2.0 + 0.5, 0.1) << "half of what is beyond 2 stops";
+  EXPECT_NEAR(lowered(0.03, 25.0), 3.5, 0.1) << "at most 3.5 stops";
   EXPECT_NEAR(lowered(0.015, 7.5), 0.0, 0.1) << "bulb";
   EXPECT_NEAR(lowered(0.03, 5.0), 0.0, 0.1) << "tubes";
   EXPECT_NEAR(lowered(0.03, 7.5, 0.0f), 0.0, 0.1) << "sky";
+}
+
+// Coloured lamps are to be looked at, and fewer of them leave a room dark than of those that light
+// it.
+TEST(Exposure, IsLessForFewerColoredLamps) {
+  const auto lowered = [](const vec3& color, double share) {
+    LayeredImage frame = dark_stage_with(share, 9.0, "emission");
+    Image& picture = *frame.find("");
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+      if (picture.pixels[i] > 1.0f) picture.pixels[i] *= color[static_cast<int>(i % 3)];
+    }
+    return -std::log2(0.01 / 0.18 * display_exposure(frame));
+  };
+  const vec3 white(1.0f), bulb(1.0f, 0.42f, 0.1f), neon(1.0f, 0.1f, 0.4f), moss(0.3f, 1.0f, 0.5f);
+  for (const vec3& color : {white, bulb}) EXPECT_LT(lowered(color, 0.015), 0.1);
+  for (const vec3& color : {neon, moss}) {
+    EXPECT_GT(lowered(color, 0.015), 0.5);
+    EXPECT_LT(lowered(color, 0.004), 0.1);
+  }
 }
 
 // What stands in a case of glass that fills the picture is what the picture shows; windows are not.

@@ -178,13 +178,15 @@ TEST(FirstView, FramesTheThingAndNotTheGroundItStandsOn) {
 }
 
 TEST(FirstView, FramesTheThingAndNotTheStudioItStandsIn) {
-  // A sweep of paper below and behind a box that is sunk into it slightly, and panels of light
+  // A sweep of paper below and behind a box that is sunk into it, and panels of light, one in a
+  // case
   Scene scene =
       scene_of({box_mesh({-0.4f, -0.01f, -0.4f}, {0.4f, 0.8f, 0.4f}), test::sweep_mesh()});
   scene.materials.push_back(scene.materials[0]);
   scene.materials[1].emission = vec3(10.0f);
   test::add(scene, test::quad({-2, 2.5f, -1}, {4, 0, 0}, {0, 0, 2}, 1));
   test::add(scene, test::quad({-2.5f, 0.5f, -1}, {0, 1, 0}, {0, 0, 2}, 1));
+  test::add(scene, box_mesh({-2.1f, 2.52f, -1.1f}, {2.1f, 2.7f, 1.1f}));
   const World world(scene);
   EXPECT_EQ(find_subject(world).instances, std::vector<std::uint32_t>{0});
   EXPECT_EQ(find_subject(world).site, world_bounds(scene));
@@ -256,12 +258,15 @@ TEST(FirstView, PrefersTheRoomThatIsLit) {
       tracer_of(world).occluded({eye, 0.0f, glm::normalize(way), glm::length(way) * 0.999f}));
 }
 
+void expect_standing_person(const FirstView& view) {
+  EXPECT_TRUE(view.inside);
+  EXPECT_NEAR(eye_of(view.camera).y, 1.6f, 0.2f);
+}
+
 TEST(FirstView, StandsAtEyeHeightWhereARoomIsOfHumanScale) {
   Scene scene =
       scene_of({box_mesh({-4, 0, -6}, {4, 3, 6}, true), box_mesh({-1, 0, -1}, {1, 1, 1})});
-  const FirstView view = first_view(World(scene)).value();
-  ASSERT_TRUE(view.inside);
-  EXPECT_NEAR(eye_of(view.camera).y, 1.6f, 0.2f);
+  expect_standing_person(first_view(World(scene)).value());
 }
 
 /// Two rows of houses along a street, whose windows, if any, emit `radiance`.
@@ -285,16 +290,25 @@ TEST(FirstView, StandsInAStreetThatItsWindowsLight) {
   const Scene night = street(8.0f), day = street(0.0f);
   const World world(night);
   const FirstView view = first_view(world).value();
-  EXPECT_TRUE(view.inside);
-  EXPECT_NEAR(eye_of(view.camera).y, 1.6f, 0.2f);
+  expect_standing_person(view);
   EXPECT_LT(std::abs(eye_of(view.camera).x), 6.0f);
   EXPECT_EQ(choose_first_light(world, view.camera), FirstLight::scene);
   EXPECT_FALSE(first_view(World(day)).value().inside);
   Scene model = night;
-  for (Mesh& mesh : model.meshes) {
-    for (glm::vec3& position : mesh.positions) position *= 0.2f;
-  }
+  for (Instance& part : model.instances) part.world_from_object = glm::mat4(glm::mat3(0.2f));
   EXPECT_FALSE(first_view(World(model)).value().inside) << "a model of a street is seen as a thing";
+}
+
+TEST(FirstView, StandsInAStreetOfALargeTown) {
+  Scene town = scene_of({box_mesh({-150, -1, -150}, {150, 0, 150})});
+  town.materials.push_back(test::lambert(glm::vec3(0.0f), glm::vec3(8.0f)));
+  for (int i = 0; i < 100; ++i) {
+    const glm::vec2 at = 28.0f * glm::vec2(i % 10, i / 10) - 136.0f;
+    test::add(town, box_mesh({at.x, 0, at.y}, {at.x + 20, 20, at.y + 20}));
+    test::add(town, test::quad({at.x - 0.02f, 2, at.y + 5}, {0, 0, 10}, {0, 1.5f, 0}, 1));
+    test::add(town, test::quad({at.x + 5, 2, at.y - 0.02f}, {10, 0, 0}, {0, 1.5f, 0}, 1));
+  }
+  expect_standing_person(first_view(World(town)).value());
 }
 
 TEST(FirstView, StandsInAStreetAndNotOnARoofBetweenTallerHouses) {
@@ -310,9 +324,7 @@ TEST(FirstView, StandsInAStreetAndNotOnARoofBetweenTallerHouses) {
     test::add(town, test::quad({5.2f, 4, z}, {1.8f, 0, 0}, {0, 0.7f, 0}, 1));
     test::add(town, test::quad({-6.97f, 2.2f, z}, {0, 0, 2}, {0, 0.75f, 0}, 1));
   }
-  const FirstView view = first_view(World(town)).value();
-  EXPECT_TRUE(view.inside);
-  EXPECT_NEAR(eye_of(view.camera).y, 1.6f, 0.2f);
+  expect_standing_person(first_view(World(town)).value());
 }
 
 TEST(FirstView, StandsInAnAlleyAndNotWithinItsClosedHouses) {

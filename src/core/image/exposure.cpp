@@ -25,14 +25,19 @@ constexpr double kAlbedoShare = 0.5;
 constexpr double kMetalReflectance = 0.5, kLeastAlbedo = 0.01;
 // Surfaces that cover at most kBrightShare of a picture may be brighter than kBright [stops] above
 // mid-grey, half a stop past white; otherwise, as with objects in spot lights on a dark stage, the
-// exposure is lowered, but by no more than kMaxLowered [stops], so that a patch of sun does not
-// make a room dark.
-constexpr double kBrightShare = 0.1, kBright = 3.0, kMaxLowered = 2.0;
+// exposure is lowered. Of what is above kWhollyLowered [stops] half counts, and no more than
+// kMaxLowered [stops], so that a patch of sun does not make a room dark.
+constexpr double kBrightShare = 0.1, kBright = 3.0, kWhollyLowered = 2.0, kMaxLowered = 3.5;
 // Lamps that cover at least kGlareShare of a picture, more than a bulb does, may be brighter than
 // kGlare [stops] above mid-grey: the tubes of a lit room are 4 to 6. Of what is above, as neon
 // signs in a dark street are, kGlareLowered lowers the exposure: the street looks dark, as by
 // night.
 constexpr double kGlareShare = 0.02, kGlare = 5.0, kGlareLowered = 0.5;
+// Coloured lamps, as neon and glowing plants, are there to be looked at, not to light a room well:
+// of them, this share of a picture is enough. Their least channel is at most kLeastOfColor of the
+// largest. Bulbs and candles have as little blue, but, down to 2,400 K, more green than this.
+constexpr double kColoredGlareShare = 0.005;
+constexpr float kLeastOfColor = 0.35f;
 // What is this much darker [stops] than the brightest surfaces that together cover this share of
 // the picture counts as black, a million times below: the night side of a planet beside a ship in
 // the sun. Pictures of which surfaces are not known have no black.
@@ -96,6 +101,13 @@ float luminance_at(const Image& linear, int x, int y) {
   return luminance(vec3(in[0], in[grey ? 0 : 1], in[grey ? 0 : 2]));
 }
 
+/// Whether a lamp has another colour than white or that of something hot.
+bool is_colored(const float* color) {
+  const auto [least, most] = std::minmax({color[0], color[1], color[2]});
+  const bool hot = color[0] >= color[1] && color[1] >= color[2];
+  return (hot ? color[1] : least) <= kLeastOfColor * most;
+}
+
 /// A luminance in stops; not finite where it does not count.
 double stops_of(float luminance) {
   return std::log2(luminance > 0.0f ? static_cast<double>(luminance) : 0.0);
@@ -113,6 +125,12 @@ double background_weight(double surfaces, double background) {
   const double most =
       kMostBackground * std::max(surfaces, kLeastSurfaces * (surfaces + background));
   return most > 0.0 && background > most ? most / background : 1.0;
+}
+
+/// The number of stops by which the exposure is lowered where so many are wanted.
+double softly_limited(double lowered) {
+  const double beyond = std::max(lowered - kWhollyLowered, 0.0);
+  return std::clamp(lowered - 0.5 * beyond, 0.0, kMaxLowered);
 }
 
 template <class Bins>
@@ -155,6 +173,7 @@ void LuminanceHistogram::add(const LayeredImage& rows) {
           break;
         case Shown::lamp:
           ++lamps_[bin];
+          if (is_colored(linear.at(x, y))) ++colored_lamps_[bin];
           break;
         case Shown::through_glass:
           ++through_glass_[bin];
@@ -213,9 +232,10 @@ float LuminanceHistogram::stops() const {
   }
   const double typical = sum / total;
   const double too_bright = bright_stop(surfaces, kBrightShare * pixels) - typical - kBright;
-  const double glare = bright_stop(lamps_, kGlareShare * pixels) - typical - kGlare;
-  const double lowered = std::max(too_bright, kGlareLowered * glare);
-  return static_cast<float>(std::log2(kMidGrey) - typical - std::clamp(lowered, 0.0, kMaxLowered));
+  const double glaring = std::max(bright_stop(lamps_, kGlareShare * pixels),
+                                  bright_stop(colored_lamps_, kColoredGlareShare * pixels));
+  const double lowered = std::max(too_bright, kGlareLowered * (glaring - typical - kGlare));
+  return static_cast<float>(std::log2(kMidGrey) - typical - softly_limited(lowered));
 }
 
 float display_stops(const Image& linear) {

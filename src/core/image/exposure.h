@@ -31,7 +31,8 @@ class LuminanceHistogram {
   /// other background count at most half as much as all surfaces together, so that a landscape
   /// under a wide sky is not dark. What is seen through glass counts as surfaces where it is most
   /// of the picture. Where surfaces far brighter than the typical luminance cover more than a tenth
-  /// of the picture, or still brighter lamps a fiftieth, the exposure is up to two stops less.
+  /// of the picture, or still brighter lamps a fiftieth, or coloured ones a two-hundredth, the
+  /// exposure is up to three and a half stops less.
   float stops() const;
 
  private:
@@ -48,6 +49,7 @@ class LuminanceHistogram {
   // images without layers are in `counts_`, none in the others.
   Bins counts_{}, surfaces_{};
   Bins lamps_{}, through_glass_{}, background_{};
+  Bins colored_lamps_{};  // among the lamps
 };
 
 /// The exposure of an image of linear radiance [stops].
