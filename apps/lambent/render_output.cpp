@@ -134,16 +134,32 @@ Expected<void> PictureFile::add(const Image& shown) {
   return jpeg_->write(shown);
 }
 
-/// Writes rows, encoded for display.
-Expected<void> PictureFile::show(const Image& rows) {
+/// Writes rows from the second argument on, up to `end`, encoded for display.
+Expected<void> PictureFile::show_rows(const Image& rows, int first, int end) {
   const ToneMap tone_map = *tone_map_from_name(options_.tone_map);
   const int at_once = rows_of_a_band(options_, size_);
-  for (int first = 0; first < rows.height; first += at_once) {
-    Image some(rows.width, std::min(at_once, rows.height - first), rows.channels);
-    std::copy_n(rows.at(0, first), some.pixels.size(), some.pixels.begin());
-    const Image shown = display_image(some, tone_map, *stops_);
-    if (const auto written = add(shown); !written) return written;
+  for (; first < end; first += at_once) {
+    const int count = std::min(at_once, end - first);
+    if (const auto written = add(display_rows(rows, first, count, tone_map, *stops_)); !written) {
+      return written;
+    }
   }
+  return {};
+}
+
+/// Writes rows but for the last one, which is shown once the row below it is there.
+Expected<void> PictureFile::show(const Image& rows) {
+  const int before = waiting_.height;  // the last row, and the one above it, that was shown
+  waiting_.width = rows.width;
+  waiting_.height += rows.height;
+  waiting_.channels = rows.channels;
+  waiting_.pixels.insert(waiting_.pixels.end(), rows.pixels.begin(), rows.pixels.end());
+  const int last = waiting_.height - 1;
+  if (const auto shown = show_rows(waiting_, std::max(before - 1, 0), last); !shown) return shown;
+  const int kept = std::min(waiting_.height, 2);
+  Image next(rows.width, kept, rows.channels);
+  std::copy_n(waiting_.at(0, waiting_.height - kept), next.pixels.size(), next.pixels.begin());
+  waiting_ = std::move(next);
   return {};
 }
 
@@ -155,7 +171,10 @@ Expected<void> PictureFile::finish() {
   if (exr_) return exr_->finish();
   if (!kept_.empty()) {
     stops_ = luminances_.stops();
-    if (const auto shown = show(kept_); !shown) return shown;
+    if (const auto shown = show_rows(kept_, 0, kept_.height); !shown) return shown;
+  } else if (!waiting_.empty()) {
+    const int last = waiting_.height - 1;
+    if (const auto shown = show_rows(waiting_, last, last + 1); !shown) return shown;
   }
   return png_ ? png_->finish() : jpeg_->finish();
 }

@@ -56,6 +56,7 @@ class PictureFile {
  private:
   Expected<void> write_exr_rows(const LayeredImage& rows);
   Expected<void> show(const Image& rows);
+  Expected<void> show_rows(const Image& rows, int first, int end);
   Expected<void> add(const Image& shown);
 
   const RenderOptions& options_;
@@ -67,6 +68,7 @@ class PictureFile {
   std::optional<JpegWriter> jpeg_;
   bool black_ = true;              // all rows so far
   Image kept_;                     // rows stored until the stops are known
+  Image waiting_;                  // the last row, which is not shown yet, and the one above it
   LuminanceHistogram luminances_;  // of the stored rows
 };
 

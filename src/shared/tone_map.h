@@ -92,10 +92,5 @@ LAMBENT_FN vec3 tone_map(vec3 exposed, uint curve) {
   return clamp(color, vec3(0.0f), vec3(1.0f));
 }
 
-/// The sRGB-encoded colour that a display shows for linear radiance.
-LAMBENT_FN vec3 display_from_linear(vec3 linear, uint curve, float exposure_stops) {
-  return srgb_from_linear(tone_map(expose(linear, exposure_stops), curve));
-}
-
 LAMBENT_END
 #endif

@@ -85,6 +85,14 @@ TEST_F(LargeWork, APictureOfManyBandsIsThatOfItsLayers) {
     ASSERT_EQ(run_program("picture " + file("a.exr") + " -o " + file("b.png")).status, 0);
     EXPECT_TRUE(content("a.png") == content("b.png")) << quality;
   }
+  // With an exposure, rows are shown before those below them are there. Nearly all is white
+  const std::string bright = " --exposure 6 -o ";
+  const std::string render =
+      "render cornell --method direct --samples 1 --quality draft --size 1100x1100";
+  ASSERT_EQ(run_program(render + bright + file("c.png")).status, 0);
+  ASSERT_EQ(run_program(render + " -o " + file("c.exr")).status, 0);
+  ASSERT_EQ(run_program("picture " + file("c.exr") + bright + file("d.png")).status, 0);
+  EXPECT_TRUE(content("c.png") == content("d.png"));
 }
 
 TEST_F(LargeWork, PicturesThatDoNotFitAreRefusedWithASizeThatDoes) {

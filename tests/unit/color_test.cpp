@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "core/image/color_map.h"
 #include "core/image/tone_map.h"
@@ -75,6 +78,59 @@ TEST(ToneMap, NeutralReturnsTheBaseColorUnderADielectric) {
   const vec3 shown = tone_map_neutral(base + vec3(0.04f));
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], base[c], 1e-6f);
   EXPECT_LT(tone_map_neutral(vec3(100.0f)).x, 1.0f);
+}
+
+/// A grey picture of these columns, three rows high.
+Image columns_of(const std::vector<float>& levels) {
+  Image image(static_cast<int>(levels.size()), 3, 3);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    image.pixels[i] = levels[i / 3 % levels.size()];
+  }
+  return image;
+}
+
+TEST(DisplayImage, SmoothsEdgesOfWhatIsFarBrighterThanWhite) {
+  // A lamp covers half of a pixel, and a tenth of another
+  const Image steep = columns_of({0.05f, 0.05f, 40.0f, 80.0f, 80.0f, 8.0f, 0.05f});
+  const Image shown = display_image(steep, ToneMap::aces, 0.0f);
+  const auto level = [&](int x) { return linear_from_srgb(vec3(shown.at(x, 1)[0])).x; };
+  const float dark = tone_map_aces(vec3(0.05f)).x, white = 1.0f;
+  EXPECT_NEAR(level(1), dark, 1e-4f);
+  EXPECT_NEAR(level(2), 0.5f * (dark + white), 0.01f);
+  EXPECT_NEAR(level(4), white, 1e-4f);
+  EXPECT_NEAR(level(5), 0.9f * dark + 0.1f * white, 0.01f);
+  EXPECT_NEAR(level(6), dark, 1e-4f);
+}
+
+TEST(DisplayImage, ShowsAllElseAsTheCurveHasIt) {
+  // Edges of what is hardly white, a wall beside a lamp, a thin line, and what is no number
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float endless = std::numeric_limits<float>::infinity();
+  for (const auto& levels : {std::vector{0.1f, 1.9f, 1.0f, 0.3f},
+                             {0.2f, 0.15f, 50.0f, 0.15f, 0.2f},
+                             {0.1f, 30.0f, 0.1f},
+                             {nan, 0.3f, endless, endless, 3.0f, -1.0f}}) {
+    const Image picture = columns_of(levels);
+    const Image shown = display_image(picture, ToneMap::aces, 0.0f);
+    for (int x = 0; x < picture.width; ++x) {
+      const float value = std::isnan(levels[x]) ? 0.0f : levels[x];
+      const vec3 alone = srgb_from_linear(tone_map(vec3(value), kToneMapAces));
+      const bool at_edge = levels[x] == 3.0f;
+      EXPECT_NEAR(shown.at(x, 1)[1], alone.y, at_edge ? 1.0f : 1e-6f) << levels[x];
+    }
+  }
+}
+
+TEST(DisplayImage, IsTheSameByRows) {
+  Image picture(5, 7, 3);
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+    picture.pixels[i] = std::exp2(static_cast<float>(i * 7 % 13) - 6.0f);
+  }
+  const Image whole = display_image(picture, ToneMap::neutral, 0.5f);
+  for (int y = 0; y < picture.height; ++y) {
+    const Image row = display_rows(picture, y, 1, ToneMap::neutral, 0.5f);
+    EXPECT_TRUE(std::ranges::equal(row.pixels, std::span(whole.at(0, y), 15))) << y;
+  }
 }
 
 TEST(ToneMap, HasNames) {

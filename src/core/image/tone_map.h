@@ -16,8 +16,14 @@ enum class ToneMap : std::uint32_t { linear = 0, aces = 1, neutral = 2 };
 std::optional<ToneMap> tone_map_from_name(std::string_view name);
 
 /// The sRGB-encoded picture in [0, 1] that write_png takes. One and two channels become three
-/// (grey; the second is dropped), a fourth (alpha) is clamped and kept. NaN shows as black.
+/// (grey; the second is dropped), a fourth (alpha) is clamped and kept. NaN shows as black. Edges
+/// of what is far brighter than white are smooth, as the pixels beside each one tell how much of it
+/// is covered.
 Image display_image(const Image& linear, ToneMap tone_map, float exposure_stops);
+
+/// The same for some rows of an image, of which those beside them are read, too.
+Image display_rows(const Image& linear, int first, int rows, ToneMap tone_map,
+                   float exposure_stops);
 
 /// The factor by which colours become radiance that a display shows about unchanged at that
 /// exposure: exact for mid-grey, other colours follow the curve. Within 1e-10 to 1e10.
