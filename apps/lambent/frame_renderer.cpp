@@ -107,8 +107,9 @@ constexpr int kFewUpdates = 8;
 void tell_noise(const FieldProgress& reached, double standard_error) {
   if (!(standard_error > kNoisyField)) return;
   std::ostringstream text;
-  text << "indirect light still has " << std::lround(100.0 * standard_error) << " % of noise after "
-       << reached.updates << " updates (--updates N makes more)";
+  text << "the light of probes still has " << std::lround(100.0 * standard_error)
+       << " % of noise after " << reached.updates
+       << " updates, which plain walls may show (--updates N makes more)";
   tell(text.str());
 }
 
@@ -150,7 +151,8 @@ Expected<void> FrameRenderer::follow(const Camera& camera, Json& stats) {
       const bool gathers = frame_settings(options_, size_).gather_rays > 0;
       const FieldProgress reached =
           calm_field(world_, kFewUpdates, gathers, request, *field_, progress_, stats);
-      tell_noise(reached, field_->standard_error());
+      // Where pixels gather light, that of the field arrives by a bounce, and its noise is not seen
+      if (!gathers) tell_noise(reached, field_->standard_error());
     } else {
       update_field(world_, first_updates(options_), request, *field_, progress_, stats);
     }
