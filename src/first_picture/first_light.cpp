@@ -74,6 +74,9 @@ constexpr int kRaysAlongFootprint = 16;
 // longer side.
 constexpr float kMinFootprint = 0.9f, kMinGround = 0.35f, kMinThings = 0.02f;
 constexpr float kGroundBand = 0.03f;
+// What is at one height is a plinth, not a ground, if it is above this share of the height of a
+// scene that is as high and as wide as a statue at most [m].
+constexpr float kMinPlinthShare = 0.25f, kMaxStatue = 4.0f;
 // A scene flatter than this share of its width is a ground itself. So is a terrain, which is
 // higher, but large [m] and without holes in its footprint.
 constexpr float kFlatShare = 0.1f;
@@ -120,15 +123,18 @@ bool has_ground(const World& world, const Bounds& bounds) {
   // Find the band of heights that holds most hits
   std::sort(heights.begin(), heights.end());
   const float band = kGroundBand * std::max(size.x, size.z);
-  std::size_t most = 0, above = 0, first = 0;
+  std::size_t most = 0, above = 0, first = 0, highest = 0;
   for (std::size_t last = 0; last < heights.size(); ++last) {
     while (heights[last] - heights[first] > band) ++first;
     if (last - first + 1 <= most) continue;
     most = last - first + 1;
     above = heights.size() - last - 1;
+    highest = last;
   }
+  const bool plinth =
+      size.y <= kMaxStatue && heights[highest] - bounds.min.y > kMinPlinthShare * size.y + band;
   const auto count = static_cast<float>(heights.size());
-  return static_cast<float>(most) >= kMinGround * count &&
+  return !plinth && static_cast<float>(most) >= kMinGround * count &&
          static_cast<float>(above) >= kMinThings * count;
 }
 

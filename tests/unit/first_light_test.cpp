@@ -58,6 +58,14 @@ TEST(FirstLight, IsAStudioForObjects) {
   EXPECT_EQ(chosen(scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})})), FirstLight::studio);
 }
 
+TEST(FirstLight, IsAStudioForAStatueOnAPlinthAndTheSunsForOneOnASlab) {
+  const Mesh statue = box_mesh({-0.2f, 1.2f, -0.2f}, {0.2f, 2.2f, 0.2f});
+  EXPECT_EQ(chosen(scene_of({box_mesh({-0.3f, 0, -0.3f}, {0.3f, 1.2f, 0.3f}), statue})),
+            FirstLight::studio);
+  EXPECT_EQ(chosen(scene_of({box_mesh({-0.3f, 1.1f, -0.3f}, {0.3f, 1.2f, 0.3f}), statue})),
+            FirstLight::sun);
+}
+
 TEST(FirstLight, IsAStudioForThingsOnASweepOfPaperAndTheSunsBeforeACliff) {
   Scene scene = scene_of({box_mesh({-0.4f, 0, -0.4f}, {0.4f, 0.8f, 0.4f}), test::sweep_mesh()});
   EXPECT_EQ(chosen(scene), FirstLight::studio);
