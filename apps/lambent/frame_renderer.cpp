@@ -109,7 +109,7 @@ void tell_noise(const FieldProgress& reached, double standard_error) {
   std::ostringstream text;
   text << "the light of probes still has " << std::lround(100.0 * standard_error)
        << " % of noise after " << reached.updates
-       << " updates, which plain walls may show (--updates N makes more)";
+       << " updates: it may show on plain walls (--updates N makes more)";
   tell(text.str());
 }
 
@@ -151,7 +151,7 @@ Expected<void> FrameRenderer::follow(const Camera& camera, Json& stats) {
       const bool gathers = frame_settings(options_, size_).gather_rays > 0;
       const FieldProgress reached =
           calm_field(world_, kFewUpdates, gathers, request, *field_, progress_, stats);
-      // Where pixels gather light, that of the field arrives by a bounce, and its noise is not seen
+      // Where pixels gather light, that of the field arrives by a further bounce, which averages it
       if (!gathers) tell_noise(reached, field_->standard_error());
     } else {
       update_field(world_, first_updates(options_), request, *field_, progress_, stats);

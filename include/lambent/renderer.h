@@ -78,11 +78,12 @@ struct FrameSettings {
   /// sequences, at up to 490 bytes per pixel. Each picture then draws other rays. Surfaces are
   /// followed as the camera moves, reflections by what they show. Averages start anew for surfaces
   /// that were not seen before; where things move, on them, around them, in the shadows of lamps
-  /// that they may move, and where mirrors may show them; and for all light when lights, materials
-  /// or the sky change. Elsewhere a frame counts as one of 8 at least while things move. What
-  /// single gathering rays bring far beyond the field's light fades in over some 32 pictures,
-  /// whatever this number, instead of flashing. For whole pictures of one sample per pixel, with
-  /// `denoise`, on the processor.
+  /// that they may move, and where mirrors may show them. Elsewhere, a frame counts for an eighth
+  /// of indirect light at least while things move. When lights, materials or the sky change, it
+  /// counts for a quarter of it, the field having been updated, and reflections and light that is
+  /// sampled start anew. What single gathering rays bring far beyond the field's light fades in
+  /// over some 32 pictures, whatever this number, instead of flashing. For whole pictures of one
+  /// sample per pixel, with `denoise`, on the processor.
   int averaged_frames = 1;
   /// Write the layer "motion" (motion vectors) with two channels: the position at which the
   /// renderer's picture before showed the surface of a pixel, less its position now [pixels, +x

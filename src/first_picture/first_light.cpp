@@ -74,8 +74,8 @@ constexpr int kRaysAlongFootprint = 16;
 // longer side.
 constexpr float kMinFootprint = 0.9f, kMinGround = 0.35f, kMinThings = 0.02f;
 constexpr float kGroundBand = 0.03f;
-// What is at one height is a plinth, not a ground, if it is above this share of the height of a
-// scene that is as high and as wide as a statue at most [m].
+// What is at one height is a plinth, not a ground, if all of it is above this share of the height
+// of a scene that is no larger than a statue [m].
 constexpr float kMinPlinthShare = 0.25f, kMaxStatue = 4.0f;
 // A scene flatter than this share of its width is a ground itself. So is a terrain, which is
 // higher, but large [m] and without holes in its footprint.
@@ -131,8 +131,8 @@ bool has_ground(const World& world, const Bounds& bounds) {
     above = heights.size() - last - 1;
     highest = last;
   }
-  const bool plinth =
-      size.y <= kMaxStatue && heights[highest] - bounds.min.y > kMinPlinthShare * size.y + band;
+  const bool plinth = std::max({size.x, size.y, size.z}) <= kMaxStatue &&
+                      heights[highest] - band - bounds.min.y > kMinPlinthShare * size.y;
   const auto count = static_cast<float>(heights.size());
   return !plinth && static_cast<float>(most) >= kMinGround * count &&
          static_cast<float>(above) >= kMinThings * count;

@@ -27,6 +27,8 @@ constexpr std::size_t kMaxPanelTriangles = 12;
 // Housings of panels of light are at most this far from them, and between these sizes, as shares of
 // the panel's diagonal: a bottle that stands on a panel is smaller.
 constexpr float kMaxHousingDistance = 0.25f, kMinHousing = 0.6f, kMaxHousing = 1.6f;
+// A studio has no more panels of light than this. Towns have thousands, and no housings are sought.
+constexpr std::size_t kMaxStudioPanels = 64;
 // Strays are at least this many diagonals of the rest, and of each of them, away from the rest: in
 // a picture of all, there would be specks alone.
 constexpr float kStrayDistance = 10.0f;
@@ -190,11 +192,13 @@ bool is_panel_of_light(const Scene& scene, std::uint32_t instance) {
 void drop_lights(const Scene& scene, std::span<const Bounds> boxes,
                  std::vector<std::uint32_t>& members) {
   std::vector<Bounds> panels;
-  for (const std::uint32_t i : members) {
-    if (is_panel_of_light(scene, i)) panels.push_back(boxes[i]);
-  }
   std::erase_if(members, [&](std::uint32_t i) {
-    if (is_panel_of_light(scene, i)) return true;
+    if (!is_panel_of_light(scene, i)) return false;
+    panels.push_back(boxes[i]);
+    return true;
+  });
+  if (panels.size() > kMaxStudioPanels) return;
+  std::erase_if(members, [&](std::uint32_t i) {
     const float size = diagonal(boxes[i]);
     return std::any_of(panels.begin(), panels.end(), [&](const Bounds& panel) {
       const float panel_size = diagonal(panel);

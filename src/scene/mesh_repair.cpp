@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/mesh_repair.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cfloat>
 #include <cmath>
@@ -112,19 +113,19 @@ void split_mirrored_vertices(Mesh& mesh, const std::vector<UvFrame>& frames,
 
 DroppedTriangles drop_degenerate_triangles(Mesh& mesh) {
   DroppedTriangles dropped;
-  // The sine of pi is not quite 0: corners at the pole of a sphere are 1e-16 of its size apart
-  constexpr float kSamePlace = 1e-6f;  // distance, as a share of the longest edge
-  const auto is_sliver = [&](float ab, float bc, float ca) {
-    return std::min({ab, bc, ca}) > kSamePlace * std::max({ab, bc, ca});
+  // The sine of pi is not quite 0: corners at the pole of a sphere are as far apart as it rounds to
+  constexpr double kSamePlace = 1e-6;  // distance, as a share of the longest edge
+  const auto is_sliver = [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const auto [least, most] =
+        std::minmax({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+    return least > kSamePlace * most;
   };
   // Computed in float, as in the passes, which cannot compute a normal where this underflows
   const auto is_degenerate = [&](const glm::uvec3& triangle) {
     const glm::vec3 a = mesh.positions[triangle.x], b = mesh.positions[triangle.y],
                     c = mesh.positions[triangle.z];
     const bool degenerate = !has_direction(glm::cross(b - a, c - a));
-    if (degenerate && is_sliver(glm::distance(a, b), glm::distance(b, c), glm::distance(c, a))) {
-      ++dropped.slivers;
-    }
+    if (degenerate && is_sliver(a, b, c)) ++dropped.slivers;
     return degenerate;
   };
   dropped.all = std::erase_if(mesh.triangles, is_degenerate);

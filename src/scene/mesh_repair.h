@@ -17,8 +17,8 @@ using VertexOrigins = std::vector<std::uint32_t>;
 /// How many triangles without area a mesh had.
 struct DroppedTriangles {
   std::size_t all = 0;
-  /// Those of them whose corners are in three different places. The others are common, as at the
-  /// poles of spheres and in strips, and no sign of a fault.
+  /// Those of them whose corners are in three places, to within rounding. The others are common, as
+  /// at the poles of spheres and in strips, and no sign of a fault.
   std::size_t slivers = 0;
 };
 

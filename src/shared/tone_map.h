@@ -10,17 +10,12 @@
 LAMBENT_BEGIN
 
 // Which curve tone_map() applies.
-const uint kToneMapLinear = 0u;   ///< No curve: clipped at 1.
-const uint kToneMapAces = 1u;     ///< Film-like contrast and shoulder; what glows keeps its hue.
+const uint kToneMapLinear = 0u;  ///< No curve: clipped at 1.
+const uint kToneMapAces = 1u;  ///< Film-like contrast and shoulder; bright colours keep their hue.
 const uint kToneMapNeutral = 2u;  ///< Preserves base colours up to 0.8; only highlights desaturate.
 
 /// Inputs are clamped to this, far into every shoulder, so that their squares are finite.
 const float kToneMapMaxInput = 65504.0f;
-
-/// Radiance scaled by 2^stops.
-LAMBENT_FN vec3 expose(vec3 linear, float stops) {
-  return linear * exp2(stops);
-}
 
 /// Hill 2016: one channel of the ACES reference rendering and output transform, as a ratio of
 /// quadratics.
@@ -44,18 +39,18 @@ LAMBENT_FN vec3 tone_map_aces(vec3 linear) {
 
 /// Exposed channels above this, 3.5 stops above mid-grey, are past what the curve can tell from
 /// each other: an orange flame, a green tube and a red sign would all be white.
-const float kGlowPeak = 2.0f;
+const float kHuePeak = 2.0f;
 /// Colours of at least this saturation keep their hue in full; greys have none to keep.
-const float kGlowSaturation = 2.0f / 3.0f;
+const float kHueSaturation = 2.0f / 3.0f;
 
-/// Display-linear Rec. 709 as tone_map_aces(), which keeps the hues of what glows: so far as a
-/// colour is saturated, it is shown as if its largest channel were no more than kGlowPeak.
-LAMBENT_FN vec3 tone_map_glow(vec3 linear) {
+/// Display-linear Rec. 709 as tone_map_aces(), but bright colours keep their hue: so far as one is
+/// saturated, it is shown as if its largest channel were no more than kHuePeak.
+LAMBENT_FN vec3 tone_map_aces_with_hue(vec3 linear) {
   float peak = max(linear.x, max(linear.y, linear.z));
-  if (peak <= kGlowPeak) return tone_map_aces(linear);
+  if (peak <= kHuePeak) return tone_map_aces(linear);
   float saturation = 1.0f - min(linear.x, min(linear.y, linear.z)) / peak;
-  return mix(tone_map_aces(linear), tone_map_aces(linear * (kGlowPeak / peak)),
-             min(saturation / kGlowSaturation, 1.0f));
+  return mix(tone_map_aces(linear), tone_map_aces(linear * (kHuePeak / peak)),
+             min(saturation / kHueSaturation, 1.0f));
 }
 
 /// Fresnel reflectance of ior 1.5 at normal incidence: the offset that dielectrics add to base
@@ -87,7 +82,7 @@ LAMBENT_FN vec3 tone_map_neutral(vec3 linear) {
 /// Display-linear Rec. 709 in [0, 1] for exposed radiance, by the curve kToneMap...
 LAMBENT_FN vec3 tone_map(vec3 exposed, uint curve) {
   vec3 color = clamp(exposed, vec3(0.0f), vec3(kToneMapMaxInput));
-  if (curve == kToneMapAces) color = tone_map_glow(color);
+  if (curve == kToneMapAces) color = tone_map_aces_with_hue(color);
   if (curve == kToneMapNeutral) color = tone_map_neutral(color);
   return clamp(color, vec3(0.0f), vec3(1.0f));
 }

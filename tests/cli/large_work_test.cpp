@@ -85,7 +85,8 @@ TEST_F(LargeWork, APictureOfManyBandsIsThatOfItsLayers) {
     ASSERT_EQ(run_program("picture " + file("a.exr") + " -o " + file("b.png")).status, 0);
     EXPECT_TRUE(content("a.png") == content("b.png")) << quality;
   }
-  // With an exposure, rows are shown before those below them are there. Nearly all is white
+  // With an exposure, rows are shown before those below them are there. Both bands end at
+  // edges of what is white
   const std::string bright = " --exposure 6 -o ";
   const std::string render =
       "render cornell --method direct --samples 1 --quality draft --size 1100x1100";

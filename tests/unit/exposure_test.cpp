@@ -137,8 +137,8 @@ TEST(Exposure, ShowsWhatStandsInSpotLights) {
   const auto shown = [](const LayeredImage& frame) { return 1.28 * display_exposure(frame); };
   const double patch = shown(stage(0.08, 0.1f)), spot = shown(stage(0.12, 0.1f));
   EXPECT_NEAR(std::log2(shown(stage(0.08, 0.0f)) / patch), 0.0, 0.01) << "small";
-  // Without, it would be as many stops more than 3 above mid-grey; of 2 and half of the others it
-  // is shown darker
+  // What it would be above 3 stops over mid-grey lowers the exposure: by 2 stops, and half of the
+  // rest
   const double lowered = 2.0 + 0.5 * (7.0 - 3.0 * 0.12 - 3.0 - 2.0);
   EXPECT_NEAR(std::log2(shown(stage(0.12, 0.0f)) / spot), lowered, 0.1) << "sky";
   EXPECT_NEAR(std::log2(spot / patch), -lowered - 3.0 * 0.04, 0.1);
@@ -178,7 +178,7 @@ TEST(Exposure, LeavesAStreetOfNeonSignsDark) {
 
 // Coloured lamps are to be looked at, and fewer of them leave a room dark than of those that light
 // it.
-TEST(Exposure, IsLessForFewerColoredLamps) {
+TEST(Exposure, IsLowerWhereASmallShareOfColoredLampsShines) {
   const auto lowered = [](const vec3& color, double share) {
     LayeredImage frame = dark_stage_with(share, 9.0, "emission");
     Image& picture = *frame.find("");
@@ -187,8 +187,9 @@ TEST(Exposure, IsLessForFewerColoredLamps) {
     }
     return -std::log2(0.01 / 0.18 * display_exposure(frame));
   };
-  const vec3 white(1.0f), bulb(1.0f, 0.42f, 0.1f), neon(1.0f, 0.1f, 0.4f), moss(0.3f, 1.0f, 0.5f);
-  for (const vec3& color : {white, bulb}) EXPECT_LT(lowered(color, 0.015), 0.1);
+  const vec3 white(1.0f), bulb(1.0f, 0.42f, 0.1f), candle(1.0f, 0.24f, 0.0f);
+  const vec3 neon(1.0f, 0.1f, 0.4f), moss(0.3f, 1.0f, 0.5f);
+  for (const vec3& color : {white, bulb, candle}) EXPECT_LT(lowered(color, 0.015), 0.1);
   for (const vec3& color : {neon, moss}) {
     EXPECT_GT(lowered(color, 0.015), 0.5);
     EXPECT_LT(lowered(color, 0.004), 0.1);
@@ -216,6 +217,18 @@ TEST(Exposure, DoesNotFollowAWideSky) {
   EXPECT_NEAR(exposure(0.25), exposure(0.0) - 0.25 * 3.0, 0.07);
   EXPECT_NEAR(exposure(0.5), exposure(0.0) - 3.0 / 3.0, 0.07);
   EXPECT_NEAR(exposure(0.9), exposure(0.5), 0.07);
+}
+
+TEST(Exposure, TakesLampsOfAGreyPictureForWhite) {
+  LayeredImage frame = dark_stage_with(0.015, 9.0, "emission");
+  const float stops = display_stops(frame);
+  Image& picture = *frame.find("");
+  Image grey_picture(picture.width, picture.height, 1);
+  for (std::size_t i = 0; i < grey_picture.pixels.size(); ++i) {
+    grey_picture.pixels[i] = picture.pixels[3 * i];
+  }
+  picture = grey_picture;
+  EXPECT_EQ(display_stops(frame), stops);
 }
 
 TEST(Exposure, IsTheSameByBands) {

@@ -64,6 +64,8 @@ TEST(FirstLight, IsAStudioForAStatueOnAPlinthAndTheSunsForOneOnASlab) {
             FirstLight::studio);
   EXPECT_EQ(chosen(scene_of({box_mesh({-0.3f, 1.1f, -0.3f}, {0.3f, 1.2f, 0.3f}), statue})),
             FirstLight::sun);
+  const Mesh terrace = box_mesh({-9, 0, -9}, {9, 1.2f, 9});
+  EXPECT_EQ(chosen(scene_of({terrace, box_mesh({-2, 1.2f, -2}, {1, 3.2f, 1})})), FirstLight::sun);
 }
 
 TEST(FirstLight, IsAStudioForThingsOnASweepOfPaperAndTheSunsBeforeACliff) {

@@ -164,9 +164,9 @@ TEST(GltfMeshes, TrianglesWithoutAreaAreDropped) {
 
 TEST(GltfMeshes, SliversWithoutAreaAreDroppedWithAWarning) {
   GltfBuilder builder;
-  // The last corner is at the first one to within rounding, as those at poles of spheres are
-  const int positions =
-      builder.accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0, 1e-25f, 0, 0}, "VEC3");
+  // The last corner is at the first one to within rounding, as those at poles of small spheres are
+  const int positions = builder.accessor<float>(
+      {0, 0, 0, 0.01f, 0, 0, 0, 0.01f, 0, 0.02f, 0, 0, 1e-19f, 0, 0}, "VEC3");
   const int indices =
       builder.accessor<std::uint16_t>({0, 1, 2, 0, 1, 3, 0, 0, 1, 0, 2, 4}, "SCALAR");
   builder.show({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});

@@ -21,9 +21,9 @@ void average_variance(const std::vector<float>& before, const HistoryTaps& taps,
 }
 
 /// Averages what a pixel gathers over at most `most` frames, over fewer where its lookup has
-/// changed. Excess is averaged over many: it starts anew where light changed everywhere. That of
-/// what moves is shown as it is: where the field lags behind them, most rays bring more than their
-/// lookups.
+/// changed. Excess is averaged over many frames, and starts anew once lights, materials or the sky
+/// have changed (`relit`). Excess of what moves is shown as it is: where the field lags behind it,
+/// most rays bring more than their lookups.
 void average_gathered(const LightHistory& last, const HistoryTaps& taps, float most, bool relit,
                       bool moves, std::size_t i, FilteredPixels& pixels, LightHistory& next) {
   vec3& difference = next.differences[i] = pixels.gathered[i] - pixels.looked_up[i];
@@ -42,6 +42,21 @@ void average_gathered(const LightHistory& last, const HistoryTaps& taps, float m
   if (pixels.gathered_variance.empty()) return;
   average_variance(last.gathered_variance, taps, frames, pixels.gathered_variance[i]);
   next.gathered_variance[i] = pixels.gathered_variance[i];
+}
+
+/// The largest numbers of frames over which light of a pixel may be averaged.
+struct MostFrames {
+  float of_emitters, of_gathers;
+};
+MostFrames most_frames(const FrameAveraging& by, const ChangedLight* changed,
+                       const FilteredPixels& pixels, std::size_t i) {
+  MostFrames most{by.most_frames, by.most_frames};
+  if (changed == nullptr) return most;
+  const vec3 &position_ws = pixels.positions_ws[i], &normal_ws = pixels.geometric_normals_ws[i];
+  most.of_emitters =
+      std::min(most.of_emitters, changed->frames_of_emitters(position_ws, normal_ws));
+  most.of_gathers = std::min(most.of_gathers, changed->frames_of_gathers(position_ws, normal_ws));
+  return most;
 }
 
 void shape(const FilteredPixels& pixels, LightHistory& history) {
@@ -134,21 +149,14 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
             depth_tolerance(depth, pixel_width_at_depth(camera, depth), dot(normal_ws, to_viewer)),
             normal_ws);
       }
-      float frames = 1.0f, most_gathers = by.most_frames;
-      if (is_history(taps)) {
-        float most = by.most_frames;
-        if (changed != nullptr) {
-          const vec3 &position_ws = pixels.positions_ws[i],
-                     &normal_ws = pixels.geometric_normals_ws[i];
-          most = std::min(most, changed->frames_of_emitters(position_ws, normal_ws));
-          most_gathers = std::min(most_gathers, changed->frames_of_gathers(position_ws, normal_ws));
-        }
-        frames = averaged_frames(weighted_sum(last.frames, taps), most);
-      }
+      const MostFrames most = most_frames(by, changed, pixels, i);
+      const float frames = is_history(taps)
+                               ? averaged_frames(weighted_sum(last.frames, taps), most.of_emitters)
+                               : 1.0f;
       next.frames[i] = frames;
       if (!pixels.gathered.empty()) {
         const bool moves = by.moved != nullptr && by.moved->contain(pixels.positions_ws[i]);
-        average_gathered(last, taps, most_gathers, relit, moves, i, pixels, next);
+        average_gathered(last, taps, most.of_gathers, relit, moves, i, pixels, next);
       }
       if (!pixels.emitters.empty()) {
         average(last.emitters, taps, frames, pixels.emitters[i]);

@@ -22,7 +22,7 @@ struct LightHistory {
   std::vector<float> looked_up;  ///< Luminance of the lookups [W/m^2], averaged.
   std::vector<float> gathered_variance, emitter_variance;
   std::vector<float> frames;           ///< Number of frames in a pixel's average of emitters.
-  std::vector<float> gathered_frames;  ///< The same for gathered light: as many, or fewer.
+  std::vector<float> gathered_frames;  ///< Number of frames in its average of gathered light.
   LobeHistory coats, clearcoats, highlights;
 };
 

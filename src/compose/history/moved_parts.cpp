@@ -18,12 +18,12 @@ namespace {
 // light far from them: a third of the old light is left after as many frames.
 constexpr float kMaxFrames = 8.0f;
 // The same where lights, materials or the sky change from frame to frame. The field follows them,
-// and gathered light is averaged as its difference from the field's: three quarters of its noise
+// and gathered light is averaged as its difference from the field's: three quarters of the variance
 // are gone after as many frames.
 constexpr float kMaxRelitFrames = 4.0f;
-// With more moving parts than this, light is taken to change everywhere: each costs time at every
-// pixel.
-constexpr std::size_t kMaxParts = 32;
+// With more boxes of moving parts than this, two for each one, light is taken to change everywhere:
+// each costs time at every pixel.
+constexpr std::size_t kMaxBoxes = 64;
 // A GGX lobe reflects 70 % of its light within this many times its width of the mirror direction
 // [rad]: half vectors within half of that angle. The rest comes from so wide an angle that one part
 // changes little of it.
@@ -86,16 +86,18 @@ bool may_shade(const Bounds& part, const vec3& position_ws, const Bounds& lights
 
 MovedParts::MovedParts(std::span<const Bounds> moved, std::span<const Bounds> emitters)
     : boxes_(without_empty(moved)), emitters_(without_empty(emitters)) {
-  for (const Bounds& box : boxes_) {
-    spheres_.push_back({0.5f * box.min + 0.5f * box.max, 0.5f * length(box.max - box.min)});
+  for (Bounds& box : boxes_) {
+    const float diagonal = length(box.max - box.min);
+    spheres_.push_back({0.5f * box.min + 0.5f * box.max, 0.5f * diagonal});
+    box.min -= kBoxMargin * diagonal;
+    box.max += kBoxMargin * diagonal;
   }
 }
 
 bool MovedParts::contain(const vec3& position_ws) const {
   return std::any_of(boxes_.begin(), boxes_.end(), [&](const Bounds& box) {
-    const vec3 margin(kBoxMargin * length(box.max - box.min));
-    return glm::all(glm::greaterThanEqual(position_ws, box.min - margin)) &&
-           glm::all(glm::lessThanEqual(position_ws, box.max + margin));
+    return glm::all(glm::greaterThanEqual(position_ws, box.min)) &&
+           glm::all(glm::lessThanEqual(position_ws, box.max));
   });
 }
 
@@ -120,7 +122,7 @@ float MovedParts::frames_of_emitters(const vec3& position_ws, const vec3& normal
       return reaches_above(part, position_ws, normal_ws) && may_shade(part, position_ws, lights);
     });
   });
-  return shaded ? 1.0f : kMaxFrames;
+  return shaded ? 1.0f : kInfiniteDistance;
 }
 
 float MovedParts::frames_of_lobe(const vec3& position_ws, const LobeGuide& lobe) const {
@@ -154,13 +156,17 @@ std::optional<ChangedLight> light_changed_since(const World& world, std::uint64_
   const auto edits = world.changes_since(revision);
   if (!edits) return std::nullopt;
   std::vector<Bounds> moved;
-  bool relit = false, emission = false;
+  bool relit = false, sampled = false;
   for (const WorldChanges& edit : *edits) {
     moved.insert(moved.end(), edit.moved.begin(), edit.moved.end());
     relit = relit || edit.relights();
-    emission = emission || edit.emission || edit.environment || !edit.materials.empty();
+    // Maps of the sky have a bright part that is sampled, materials may let light through, and of
+    // many lights some are sampled
+    const bool few = lights_of(world).lights().size() + edit.lights.size() <= kMaxLightsAsked;
+    sampled = sampled || edit.emission || edit.environment || !edit.materials.empty() ||
+              (!edit.lights.empty() && !few);
   }
-  if (moved.size() > kMaxParts) return std::nullopt;
+  if (moved.size() > kMaxBoxes) return std::nullopt;
   std::vector<Bounds> emitters;
   const std::vector<LightTreeNode>& groups = lights_of(world).groups().nodes();
   for (std::size_t i = 0; i < std::min<std::size_t>(groups.size(), kLightGroupSize); ++i) {
@@ -168,7 +174,7 @@ std::optional<ChangedLight> light_changed_since(const World& world, std::uint64_
     emitters.push_back(
         {groups[i].center_ws - groups[i].half_size, groups[i].center_ws + groups[i].half_size});
   }
-  return ChangedLight{MovedParts(moved, emitters), relit, emission};
+  return ChangedLight{MovedParts(moved, emitters), relit, sampled};
 }
 
 }  // namespace lambent

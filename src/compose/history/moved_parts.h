@@ -39,15 +39,16 @@ class MovedParts {
     float radius;  // [m]
   };
 
-  std::vector<Bounds> boxes_, emitters_;  // none of them empty
-  std::vector<BoundingSphere> spheres_;   // around the boxes
+  std::vector<Bounds> boxes_;            // none of them empty; by kBoxMargin larger
+  std::vector<Bounds> emitters_;         // none of them empty
+  std::vector<BoundingSphere> spheres_;  // around the boxes
 };
 
 /// How light differs from that of a previous frame.
 struct ChangedLight {
-  MovedParts moved;
+  MovedParts moved;       ///< Everything that moved.
   bool relit = false;     ///< Lights, materials or the sky differ.
-  bool emitters = false;  ///< Not only punctual lights do.
+  bool emitters = false;  ///< What is sampled as emissive surfaces are differs, or its shadows do.
 
   /// The largest number of frames, >= 1, over which gathered light of a surface may be averaged.
   float frames_of_gathers(const vec3& position_ws, const vec3& normal_ws) const;
@@ -56,8 +57,8 @@ struct ChangedLight {
   float frames_of_emitters(const vec3& position_ws, const vec3& normal_ws) const;
 };
 
-/// How light has changed since a revision of the world; none where it may be anyhow, as there are
-/// too many moved parts, or changes are no longer on record.
+/// How light has changed since a revision of the world; none where it may have changed in any way:
+/// there are too many moved parts, or changes are no longer on record.
 std::optional<ChangedLight> light_changed_since(const World& world, std::uint64_t revision);
 
 }  // namespace lambent

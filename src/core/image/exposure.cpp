@@ -35,9 +35,10 @@ constexpr double kBrightShare = 0.1, kBright = 3.0, kWhollyLowered = 2.0, kMaxLo
 constexpr double kGlareShare = 0.02, kGlare = 5.0, kGlareLowered = 0.5;
 // Coloured lamps, as neon and glowing plants, are there to be looked at, not to light a room well:
 // of them, this share of a picture is enough. Their least channel is at most kLeastOfColor of the
-// largest. Bulbs and candles have as little blue, but, down to 2,400 K, more green than this.
+// largest. Bulbs and candles have as little blue, but more green than kLeastGreen of the red: down
+// to 1,800 K.
 constexpr double kColoredGlareShare = 0.005;
-constexpr float kLeastOfColor = 0.35f;
+constexpr float kLeastOfColor = 0.35f, kLeastGreen = 0.2f;
 // What is this much darker [stops] than the brightest surfaces that together cover this share of
 // the picture counts as black, a million times below: the night side of a planet beside a ship in
 // the sun. Pictures of which surfaces are not known have no black.
@@ -95,17 +96,18 @@ struct SurfaceLayers {
   }
 };
 
-float luminance_at(const Image& linear, int x, int y) {
+/// A pixel's colour; grey where the image has one or two channels.
+vec3 color_at(const Image& linear, int x, int y) {
   const bool grey = linear.channels < 3;
   const float* in = linear.at(x, y);
-  return luminance(vec3(in[0], in[grey ? 0 : 1], in[grey ? 0 : 2]));
+  return {in[0], in[grey ? 0 : 1], in[grey ? 0 : 2]};
 }
 
 /// Whether a lamp has another colour than white or that of something hot.
-bool is_colored(const float* color) {
-  const auto [least, most] = std::minmax({color[0], color[1], color[2]});
-  const bool hot = color[0] >= color[1] && color[1] >= color[2];
-  return (hot ? color[1] : least) <= kLeastOfColor * most;
+bool is_colored(const vec3& color) {
+  if (color.x >= color.y && color.y >= color.z) return color.y <= kLeastGreen * color.x;
+  const auto [least, most] = std::minmax({color.x, color.y, color.z});
+  return least <= kLeastOfColor * most;
 }
 
 /// A luminance in stops; not finite where it does not count.
@@ -150,7 +152,7 @@ Bins plus(Bins a, const Bins& b) {
 void LuminanceHistogram::add(const Image& linear) {
   for (int y = 0; y < linear.height; ++y) {
     for (int x = 0; x < linear.width; ++x) {
-      const double stops = stops_of(luminance_at(linear, x, y));
+      const double stops = stops_of(luminance(color_at(linear, x, y)));
       if (std::isfinite(stops)) ++counts_[bin_of(stops)];
     }
   }
@@ -162,7 +164,7 @@ void LuminanceHistogram::add(const LayeredImage& rows) {
   if (layers.albedo == nullptr) return add(linear);
   for (int y = 0; y < linear.height; ++y) {
     for (int x = 0; x < linear.width; ++x) {
-      const float sent = luminance_at(linear, x, y);
+      const float sent = luminance(color_at(linear, x, y));
       const double stops = stops_of(sent);
       if (!std::isfinite(stops)) continue;
       const std::size_t bin = bin_of(stops);
@@ -173,7 +175,7 @@ void LuminanceHistogram::add(const LayeredImage& rows) {
           break;
         case Shown::lamp:
           ++lamps_[bin];
-          if (is_colored(linear.at(x, y))) ++colored_lamps_[bin];
+          if (is_colored(color_at(linear, x, y))) ++colored_lamps_[bin];
           break;
         case Shown::through_glass:
           ++through_glass_[bin];

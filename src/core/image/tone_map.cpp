@@ -26,13 +26,19 @@ std::optional<ToneMap> tone_map_from_name(std::string_view name) {
 
 namespace {
 
-// What is brighter, exposed, is white on a display, or nearly so.
+// Levels are largest channels of exposed radiance. What is brighter than this is white on a
+// display, or nearly so.
 constexpr float kDisplayWhite = 1.0f;
 // Beside what is brighter than the first, edges begin to be steps; where it is as bright as the
 // second, an eighth of it in a pixel is enough to make that white.
 constexpr float kGlaring = 2.0f, kVeryGlaring = 8.0f;
 
+// Few enough for all threads to have some of a small picture, whose row takes 0.1 ms.
 constexpr std::size_t kRowsPerTask = 16;
+
+float largest_channel(const vec3& color) {
+  return std::max({color.x, color.y, color.z});
+}
 
 /// Exposed radiance of some rows of an image, and of those beside them.
 class ExposedRows {
@@ -44,7 +50,7 @@ class ExposedRows {
         end_(std::min(first + rows + 1, linear.height)) {
     levels_.reserve(static_cast<std::size_t>(end_ - first_) * linear.width);
     for (int y = first_; y < end_; ++y) {
-      for (int x = 0; x < linear.width; ++x) levels_.push_back(luminance(at(x, y)));
+      for (int x = 0; x < linear.width; ++x) levels_.push_back(largest_channel(at(x, y)));
     }
     beside_glare_.assign(levels_.size(), 0);
     for (int y = first_; y < end_; ++y) {
@@ -64,7 +70,7 @@ class ExposedRows {
     const float* in = linear_.at(x, y);
     return {shown(in[0]), shown(in[grey ? 0 : 1]), shown(in[grey ? 0 : 2])};
   }
-  /// The luminance of a pixel.
+  /// Largest channel of a pixel.
   float level_at(int x, int y) const { return levels_[index(x, y)]; }
   /// Whether a pixel, or one beside it, is brighter than kGlaring.
   bool is_beside_glare(int x, int y) const { return beside_glare_[index(x, y)] != 0; }
@@ -93,7 +99,8 @@ class ExposedRows {
 /// is averaged over a pixel is white even where little of the pixel is covered, and edges are
 /// steps. There, what the display shows is averaged: the pixel's level between those of the
 /// brightest pixel beside it and of the brightest one that is not white is the share that is
-/// covered.
+/// covered. A texel beside a lamp that is brighter than all others around it counts as covered,
+/// too.
 vec3 shown_at(const ExposedRows& exposed, int x, int y, uint curve) {
   const vec3 shown = tone_map(exposed.at(x, y), curve);
   if (!exposed.is_beside_glare(x, y)) return shown;

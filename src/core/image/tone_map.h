@@ -17,11 +17,12 @@ std::optional<ToneMap> tone_map_from_name(std::string_view name);
 
 /// The sRGB-encoded picture in [0, 1] that write_png takes. One and two channels become three
 /// (grey; the second is dropped), a fourth (alpha) is clamped and kept. NaN shows as black. Edges
-/// of what is far brighter than white are smooth, as the pixels beside each one tell how much of it
-/// is covered.
+/// of what is far brighter than white are smooth: a pixel's neighbours tell how much of it is
+/// covered.
 Image display_image(const Image& linear, ToneMap tone_map, float exposure_stops);
 
-/// The same for some rows of an image, of which those beside them are read, too.
+/// The same for `rows` rows of an image from row `first` on, all of them in the image. Reads the
+/// rows directly above and below, too.
 Image display_rows(const Image& linear, int first, int rows, ToneMap tone_map,
                    float exposure_stops);
 
