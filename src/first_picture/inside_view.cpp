@@ -12,6 +12,7 @@
 #include "raytracing/direct_light.h"
 #include "raytracing/places/places.h"
 #include "raytracing/solid_sides/find_solid_sides.h"
+#include "raytracing/trace_rays.h"
 #include "raytracing/world_access.h"
 #include "shared/constants.h"
 #include "shared/random.h"

@@ -156,16 +156,16 @@ Image display_rows(const Image& linear, int first, int rows, ToneMap tone_map,
 }
 
 float radiance_of_colors(ToneMap tone_map, float exposure_stops) {
-  constexpr auto grey = static_cast<float>(kMidGrey);
+  constexpr auto kGrey = static_cast<float>(kMidGrey);
   // Bisect: curves are increasing, and all of them map mid-grey to between half and twice its value
-  float low = 0.5f * grey, high = 2.0f * grey;
+  float low = 0.5f * kGrey, high = 2.0f * kGrey;
   constexpr int kHalvings = 24;  // bits of a float
   for (int i = 0; i < kHalvings; ++i) {
     const float middle = 0.5f * (low + high);
-    const bool dark = lambent::tone_map(vec3(middle), static_cast<uint>(tone_map)).y < grey;
+    const bool dark = lambent::tone_map(vec3(middle), static_cast<uint>(tone_map)).y < kGrey;
     (dark ? low : high) = middle;
   }
-  return std::clamp(high / grey * std::exp2(-exposure_stops), 1e-10f, 1e10f);
+  return std::clamp(high / kGrey * std::exp2(-exposure_stops), 1e-10f, 1e10f);
 }
 
 }  // namespace lambent
