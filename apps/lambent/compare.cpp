@@ -44,17 +44,11 @@ struct Comparison {
   Metrics metrics;
 };
 
-/// Layers that are data, not pictures, and have no exposure.
-constexpr const char* kDataLayers[] = {"normal", "position", "depth"};
 constexpr int kMaxBlock = 1 << 12;
 /// Products with values of images must be finite.
 constexpr double kMaxScale = 1e12;
 /// A number that was not measured; printed as "-".
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-
-bool is_picture(const std::string& layer) {
-  return std::find(std::begin(kDataLayers), std::end(kDataLayers), layer) == std::end(kDataLayers);
-}
 
 /// 8-bit files are display-encoded, all others have linear radiance.
 bool is_display_file(const std::string& path) {

@@ -1,12 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lambent/layers.h"
 
+#include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "core/nearest_word.h"
 #include "lambent/words.h"
 
 namespace lambent::cli {
+namespace {
+
+constexpr const char* kDataLayers[] = {"normal", "position", "depth", "motion"};
+
+}  // namespace
+
+bool is_picture(const std::string& layer) {
+  return std::find(std::begin(kDataLayers), std::end(kDataLayers), layer) == std::end(kDataLayers);
+}
 
 std::string layer_text(const std::string& name) {
   return name.empty() ? "(picture)" : name;

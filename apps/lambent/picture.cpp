@@ -50,7 +50,8 @@ Expected<void> picture(const PictureOptions& options) {
     return *layer == file->find("") ? display_stops(*file) : display_stops(**layer);
   };
   const float stops = *asked_stops ? **asked_stops : suits();
-  const Image shown = display_image(**layer, *tone_map_from_name(options.tone_map), stops);
+  const Edges edges = is_picture(options.layer) ? Edges::smooth : Edges::as_averaged;
+  const Image shown = display_image(**layer, *tone_map_from_name(options.tone_map), stops, edges);
   if (const Expected<void> fine = make_folders(options.output); !fine) return fine;
   const bool png = has_ending(options.output, ".png");
   const auto done = png ? write_png(options.output, shown) : write_jpeg(options.output, shown);

@@ -134,7 +134,7 @@ Expected<void> PictureFile::add(const Image& shown) {
   return jpeg_->write(shown);
 }
 
-/// Writes rows from the second argument on, up to `end`, encoded for display.
+/// Writes the rows from `first` on, up to `end`, encoded for display.
 Expected<void> PictureFile::show_rows(const Image& rows, int first, int end) {
   const ToneMap tone_map = *tone_map_from_name(options_.tone_map);
   const int at_once = rows_of_a_band(options_, size_);

@@ -17,6 +17,10 @@ const uint kToneMapNeutral = 2u;  ///< Preserves base colours up to 0.8; only hi
 /// Inputs are clamped to this, far into every shoulder, so that their squares are finite.
 const float kToneMapMaxInput = 65504.0f;
 
+LAMBENT_FN float largest_channel(vec3 color) {
+  return max(color.x, max(color.y, color.z));
+}
+
 /// Hill 2016: one channel of the ACES reference rendering and output transform, as a ratio of
 /// quadratics.
 LAMBENT_FN float aces_curve(float v) {
@@ -46,7 +50,7 @@ const float kHueSaturation = 2.0f / 3.0f;
 /// Display-linear Rec. 709 as tone_map_aces(), but bright colours keep their hue: so far as one is
 /// saturated, it is shown as if its largest channel were no more than kHuePeak.
 LAMBENT_FN vec3 tone_map_aces_with_hue(vec3 linear) {
-  float peak = max(linear.x, max(linear.y, linear.z));
+  float peak = largest_channel(linear);
   if (peak <= kHuePeak) return tone_map_aces(linear);
   float saturation = 1.0f - min(linear.x, min(linear.y, linear.z)) / peak;
   return mix(tone_map_aces(linear), tone_map_aces(linear * (kHuePeak / peak)),
@@ -69,7 +73,7 @@ LAMBENT_FN vec3 tone_map_neutral(vec3 linear) {
   float toe = darkest - darkest * darkest / (4.0f * kNeutralFresnel);
   float offset = darkest < 2.0f * kNeutralFresnel ? toe : kNeutralFresnel;
   vec3 color = linear - vec3(offset);
-  float peak = max(color.x, max(color.y, color.z));
+  float peak = largest_channel(color);
   if (peak < kNeutralStart) return color;
 
   // Compress the peak into [start, 1), then desaturate in proportion to the compression.

@@ -127,6 +127,16 @@ TEST(DisplayImage, ShowsAllElseAsTheCurveHasIt) {
   }
 }
 
+TEST(DisplayImage, LeavesEdgesOfDataAlone) {
+  const Image depths = columns_of({0.05f, 6.0f, 12.0f});
+  const Image shown = display_image(depths, ToneMap::linear, -4.0f, Edges::as_averaged);
+  for (int x = 0; x < depths.width; ++x) {
+    EXPECT_FLOAT_EQ(shown.at(x, 1)[0], srgb_from_linear(depths.at(x, 1)[0] / 16.0f));
+  }
+  const Image white = display_image(depths, ToneMap::linear, 0.0f, Edges::as_averaged);
+  EXPECT_EQ(white.at(1, 1)[0], 1.0f);
+}
+
 TEST(DisplayImage, IsTheSameByRows) {
   Image picture(5, 7, 3);
   for (std::size_t i = 0; i < picture.pixels.size(); ++i) {

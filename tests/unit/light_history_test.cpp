@@ -98,8 +98,8 @@ TEST_F(LightHistoryTest, ForgetsLightOnceTheWorldHasChanged) {
   }
   for (Material& material : stage.scene.materials) material.emission *= 0.1f;
   ASSERT_TRUE(stage.world.update());
-  stage.field->update(
-      stage.world);  // a field that did not follow would tell that light is the same
+  // A field that did not follow would tell that light is the same
+  stage.field->update(stage.world);
   const RenderedFrame a = averaged.render(camera(), averaging(10)).value();
   const RenderedFrame b = forgetful.render(camera(), averaging(10)).value();
   EXPECT_EQ(a.image.find("")->pixels, b.image.find("")->pixels);

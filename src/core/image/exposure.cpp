@@ -6,6 +6,7 @@
 #include <functional>
 #include <numeric>
 
+#include "core/image/color_at.h"
 #include "core/image/mid_grey.h"
 #include "shared/color.h"
 
@@ -25,9 +26,10 @@ constexpr double kAlbedoShare = 0.5;
 constexpr double kMetalReflectance = 0.5, kLeastAlbedo = 0.01;
 // Surfaces that cover at most kBrightShare of a picture may be brighter than kBright [stops] above
 // mid-grey, half a stop past white; otherwise, as with objects in spot lights on a dark stage, the
-// exposure is lowered. Of what is above kWhollyLowered [stops] half counts, and no more than
-// kMaxLowered [stops], so that a patch of sun does not make a room dark.
-constexpr double kBrightShare = 0.1, kBright = 3.0, kWhollyLowered = 2.0, kMaxLowered = 3.5;
+// exposure is lowered. What is above kWhollyLowered [stops] counts by kBeyondLowered, and no more
+// than kMaxLowered [stops] in all, so that a patch of sun does not make a room dark.
+constexpr double kBrightShare = 0.1, kBright = 3.0;
+constexpr double kWhollyLowered = 2.0, kBeyondLowered = 0.5, kMaxLowered = 3.5;
 // Lamps that cover at least kGlareShare of a picture, more than a bulb does, may be brighter than
 // kGlare [stops] above mid-grey: the tubes of a lit room are 4 to 6. Of what is above, as neon
 // signs in a dark street are, kGlareLowered lowers the exposure: the street looks dark, as by
@@ -96,13 +98,6 @@ struct SurfaceLayers {
   }
 };
 
-/// A pixel's colour; grey where the image has one or two channels.
-vec3 color_at(const Image& linear, int x, int y) {
-  const bool grey = linear.channels < 3;
-  const float* in = linear.at(x, y);
-  return {in[0], in[grey ? 0 : 1], in[grey ? 0 : 2]};
-}
-
 /// Whether a lamp has another colour than white or that of something hot.
 bool is_colored(const vec3& color) {
   if (color.x >= color.y && color.y >= color.z) return color.y <= kLeastGreen * color.x;
@@ -132,7 +127,7 @@ double background_weight(double surfaces, double background) {
 /// The number of stops by which the exposure is lowered where so many are wanted.
 double softly_limited(double lowered) {
   const double beyond = std::max(lowered - kWhollyLowered, 0.0);
-  return std::clamp(lowered - 0.5 * beyond, 0.0, kMaxLowered);
+  return std::clamp(lowered - (1.0 - kBeyondLowered) * beyond, 0.0, kMaxLowered);
 }
 
 template <class Bins>

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "core/image/color_at.h"
 #include "core/image/mid_grey.h"
 #include "core/parallel.h"
 #include "shared/tone_map.h"
@@ -33,17 +34,13 @@ constexpr float kDisplayWhite = 1.0f;
 // second, an eighth of it in a pixel is enough to make that white.
 constexpr float kGlaring = 2.0f, kVeryGlaring = 8.0f;
 
-// Few enough for all threads to have some of a small picture, whose row takes 0.1 ms.
+// Few enough for all threads to have some of a small picture.
 constexpr std::size_t kRowsPerTask = 16;
-
-float largest_channel(const vec3& color) {
-  return std::max({color.x, color.y, color.z});
-}
 
 /// Exposed radiance of some rows of an image, and of those beside them.
 class ExposedRows {
  public:
-  ExposedRows(const Image& linear, int first, int rows, float stops)
+  ExposedRows(const Image& linear, int first, int rows, float stops, Edges edges)
       : linear_(linear),
         scale_(std::exp2(stops)),
         first_(std::max(first - 1, 0)),
@@ -53,6 +50,7 @@ class ExposedRows {
       for (int x = 0; x < linear.width; ++x) levels_.push_back(largest_channel(at(x, y)));
     }
     beside_glare_.assign(levels_.size(), 0);
+    if (edges == Edges::as_averaged) return;
     for (int y = first_; y < end_; ++y) {
       for (int x = 0; x < linear.width; ++x) {
         if (level_at(x, y) <= kGlaring) continue;
@@ -63,12 +61,11 @@ class ExposedRows {
 
   /// Finite, and not negative; NaN counts as black.
   vec3 at(int x, int y) const {
-    const auto shown = [&](float value) {
-      return std::isnan(value) ? 0.0f : std::clamp(scale_ * value, 0.0f, kToneMapMaxInput);
-    };
-    const bool grey = linear_.channels < 3;
-    const float* in = linear_.at(x, y);
-    return {shown(in[0]), shown(in[grey ? 0 : 1]), shown(in[grey ? 0 : 2])};
+    vec3 color = scale_ * color_at(linear_, x, y);
+    for (int c = 0; c < 3; ++c) {
+      color[c] = std::isnan(color[c]) ? 0.0f : std::clamp(color[c], 0.0f, kToneMapMaxInput);
+    }
+    return color;
   }
   /// Largest channel of a pixel.
   float level_at(int x, int y) const { return levels_[index(x, y)]; }
@@ -128,14 +125,14 @@ vec3 shown_at(const ExposedRows& exposed, int x, int y, uint curve) {
 
 }  // namespace
 
-Image display_image(const Image& linear, ToneMap tone_map, float exposure_stops) {
-  return display_rows(linear, 0, linear.height, tone_map, exposure_stops);
+Image display_image(const Image& linear, ToneMap tone_map, float exposure_stops, Edges edges) {
+  return display_rows(linear, 0, linear.height, tone_map, exposure_stops, edges);
 }
 
-Image display_rows(const Image& linear, int first, int rows, ToneMap tone_map,
-                   float exposure_stops) {
+Image display_rows(const Image& linear, int first, int rows, ToneMap tone_map, float exposure_stops,
+                   Edges edges) {
   const bool alpha = linear.channels == 4;
-  const ExposedRows exposed(linear, first, rows, exposure_stops);
+  const ExposedRows exposed(linear, first, rows, exposure_stops, edges);
   Image shown(linear.width, rows, alpha ? 4 : 3);
   const auto show_row = [&](int y) {
     for (int x = 0; x < linear.width; ++x) {
