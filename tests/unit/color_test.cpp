@@ -134,7 +134,7 @@ TEST(DisplayImage, LeavesEdgesOfDataAlone) {
     EXPECT_FLOAT_EQ(shown.at(x, 1)[0], srgb_from_linear(depths.at(x, 1)[0] / 16.0f));
   }
   const Image white = display_image(depths, ToneMap::linear, 0.0f, Edges::as_averaged);
-  EXPECT_EQ(white.at(1, 1)[0], 1.0f);
+  EXPECT_FLOAT_EQ(white.at(1, 1)[0], 1.0f);
 }
 
 TEST(DisplayImage, IsTheSameByRows) {

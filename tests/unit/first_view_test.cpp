@@ -179,14 +179,14 @@ TEST(FirstView, FramesTheThingAndNotTheGroundItStandsOn) {
 
 TEST(FirstView, FramesTheThingAndNotTheStudioItStandsIn) {
   // A sweep of paper below and behind a box that is sunk into it, and panels of light, one in a
-  // case
+  // housing
   Scene scene =
       scene_of({box_mesh({-0.4f, -0.01f, -0.4f}, {0.4f, 0.8f, 0.4f}), test::sweep_mesh()});
   scene.materials.push_back(scene.materials[0]);
   scene.materials[1].emission = vec3(10.0f);
   test::add(scene, test::quad({-2, 2.5f, -1}, {4, 0, 0}, {0, 0, 2}, 1));
   test::add(scene, test::quad({-2.5f, 0.5f, -1}, {0, 1, 0}, {0, 0, 2}, 1));
-  test::add(scene, box_mesh({-2.1f, 2.52f, -1.1f}, {2.1f, 2.7f, 1.1f}));
+  test::add(scene, box_mesh({-2.7f, 0.4f, -1.1f}, {-2.52f, 1.6f, 1.1f}));
   const World world(scene);
   EXPECT_EQ(find_subject(world).instances, std::vector<std::uint32_t>{0});
   EXPECT_EQ(find_subject(world).site, world_bounds(scene));

@@ -56,6 +56,8 @@ TEST(MovedParts, EndAveragesInTheShadowsOfLamps) {
   const MovedParts parts(moved, lamps);
   EXPECT_EQ(parts.frames_of_emitters({0.0f, 0.0f, 0.0f}, kUp), 1.0f);
   EXPECT_GT(parts.frames_of_emitters({8.0f, 0.0f, 0.0f}, kUp), 4.0f);
+  // A point may be on the part, to within rounding
+  EXPECT_EQ(parts.frames_of_emitters({0.0f, 6.1f + 1e-6f, 0.0f}, kUp), 1.0f);
   // Above the lamp the part is not in the way, and lamps below the horizon are hidden anyway
   EXPECT_GT(parts.frames_of_emitters({0.0f, 20.0f, 0.0f}, -kUp), 4.0f);
   EXPECT_GT(parts.frames_of_emitters({0.0f, 0.0f, 0.0f}, -kUp), 4.0f);
