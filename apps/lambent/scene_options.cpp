@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <glm/gtc/constants.hpp>
 
@@ -22,6 +23,9 @@ namespace {
 constexpr float kDefaultFov = 45.0f;  // vertical [degrees]
 // Range of fields of view [degrees], beyond which nothing is recognisable.
 constexpr float kSmallestFov = 1.0f, kLargestFov = 170.0f;
+// Significant digits of the places of a view that was chosen: the first number where the eye is as
+// far from the origin as from what it sees; floats have no more than the second.
+constexpr int kDigitsOfView = 5, kMostDigits = 9;
 
 Expected<Camera> named_camera(const std::string& wanted, const Scene& scene) {
   std::vector<std::string> names;
@@ -151,7 +155,8 @@ Expected<View> choose_view(const SceneOptions& options, const World& world, floa
     }
     const Expected<FirstView> view = first_view(world, {vertical_fov, aspect});
     if (!view) return tl::unexpected(view.error());
-    return View{view->camera, view->inside ? View::From::inside : View::From::outside};
+    return View{view->camera, view->inside ? View::From::inside : View::From::outside,
+                view->distance};
   }
   const Expected<Camera> camera = showing < 0 ? camera_of_scene(options, scene)
                                               : with_asked_fov(options, scene.cameras[showing]);
@@ -165,14 +170,16 @@ std::string describe(const View& view) {
     return view.camera.name.empty() ? "the scene's" : "the scene's '" + view.camera.name + "'";
   }
   const glm::vec3 eye(view.camera.world_from_view[3]);
-  // The printed options give the same view: the target is far enough away to preserve the direction
-  // in rounded numbers
-  const glm::vec3 target =
-      eye - std::max(glm::length(eye), 1.0f) * glm::vec3(view.camera.world_from_view[2]);
+  // The target is on what is shown, so that views around it begin from there. As far as the eye is
+  // from the origin beside that, more digits are needed for the same direction
+  const glm::vec3 target = eye - view.distance * glm::vec3(view.camera.world_from_view[2]);
+  const float larger = std::max(glm::length(eye) / view.distance, 1.0f);
+  const int digits = std::min(kDigitsOfView + static_cast<int>(std::log10(larger)), kMostDigits);
   char text[256];
-  std::snprintf(text, sizeof text, "%s, as --eye=%.5g,%.5g,%.5g --target=%.5g,%.5g,%.5g --fov %.3g",
-                view.from == View::From::inside ? "inside" : "the whole object", eye.x, eye.y,
-                eye.z, target.x, target.y, target.z, glm::degrees(view.camera.vertical_fov));
+  std::snprintf(text, sizeof text, "%s, as --eye=%.*g,%.*g,%.*g --target=%.*g,%.*g,%.*g --fov %.3g",
+                view.from == View::From::inside ? "inside the scene" : "the whole object", digits,
+                eye.x, digits, eye.y, digits, eye.z, digits, target.x, digits, target.y, digits,
+                target.z, glm::degrees(view.camera.vertical_fov));
   return text;
 }
 

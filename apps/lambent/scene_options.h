@@ -54,6 +54,7 @@ struct View {
   enum class From { options, scene, inside, outside };
   Camera camera;
   From from = From::scene;
+  float distance = 1.0f;  ///< To what it shows, where the program chose it [m].
 };
 
 /// The camera that the options ask for, else the scene's first that sees any of its surfaces, else

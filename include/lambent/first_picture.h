@@ -25,12 +25,14 @@ struct FirstViewSettings {
 /// A camera that shows a scene.
 struct FirstView {
   Camera camera;
-  bool inside = false;  ///< The camera is inside a room, not in front of an object.
+  bool inside = false;  ///< The camera is in a room, in a street or on a site, not in front of all.
+  float distance = 1.0f;  ///< To what is in the middle of the picture, > 0 [m].
 };
 
 /// Finds a camera by what it would show: a three-quarter view of the whole object from outside, or,
-/// where the scene is a shell around most of its contents, a view at eye height in its open space
-/// (docs/cli.md has the rules). Traces some 20,000 rays. The same world gives the same view. Fails
+/// where the scene is a shell around most of its contents, a view at eye height in its open space,
+/// or, on a wide ground, one of what stands there (docs/cli.md has the rules). Traces up to 150,000
+/// rays. The same world gives the same view. Fails
 /// on settings out of range.
 Expected<FirstView> first_view(const World& world, const FirstViewSettings& settings = {});
 

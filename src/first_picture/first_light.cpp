@@ -23,11 +23,11 @@ constexpr float kMinLitShare = 0.4f;
 // the dark. There, they light a view only if the median radiance of what they light is at least
 // this share of their own, as far as they are visible.
 constexpr float kMinEmissionRatio = 0.1f;
-// Lamps, such as a photographer's soft boxes or the neon tubes of a street at night, differ from
-// signs in that they light nearly all of a view, at least the first share of it, and are brighter
-// than what glTF files emit without KHR_materials_emissive_strength [W/(m^2 sr)]. Beside them, the
-// view may be darker: a three hundredth is still visible where they are white.
-constexpr float kMinLitByLamps = 0.9f, kMaxSignRadiance = 1.0f, kMinLampRatio = 0.003f;
+// Lamps, such as a photographer's soft boxes, the neon tubes of a street at night, or lanterns in a
+// garden, differ from signs in that they light most of a view, at least the first share of it, and
+// are brighter than what glTF files emit without KHR_materials_emissive_strength [W/(m^2 sr)].
+// Beside them, the view may be darker: a thousandth is still visible where they are white.
+constexpr float kMinLitByLamps = 0.8f, kMaxSignRadiance = 1.0f, kMinLampRatio = 0.001f;
 // A court or a street under open sky is lit by its own emitters only if they light this share of
 // the view; otherwise it is shown by day.
 constexpr float kMinLitByNight = 0.9f;

@@ -23,6 +23,9 @@ constexpr float kRoomFov = 60.0f;
 constexpr int kRaysAlongRow = 128;
 constexpr float kMostRows = 1024.0f;
 
+// Rays along each edge of the middle half of a picture that measure how far away it is.
+constexpr int kRaysToShown = 8;
+
 Expected<void> check(const FirstViewSettings& settings) {
   const float fov = settings.vertical_fov.value_or(1.0f);
   if (!(fov > 0.0f && fov < glm::pi<float>())) {
@@ -32,6 +35,58 @@ Expected<void> check(const FirstViewSettings& settings) {
     return fail("", "aspect", "must be above 0");
   }
   return {};
+}
+
+/// The best view inside a subject that is a room.
+std::optional<Camera> room_view(const World& world, const Subject& subject,
+                                const SpaceSurvey& survey, float vertical_fov, float aspect) {
+  if (!is_room(world, subject, survey)) return std::nullopt;
+  return inside_view(world, survey, subject.bounds, vertical_fov, aspect);
+}
+
+/// Leaves the enclosed places below a roof: among hills, all that is outdoors is enclosed, too.
+void keep_below_roofs(SpaceSurvey& survey) {
+  const auto before = static_cast<float>(survey.enclosed.size());
+  const auto is_open = [](const OpenPlace& place) { return place.open_above; };
+  std::erase_if(survey.enclosed, is_open);
+  survey.sheltered = survey.enclosed;
+  if (before > 0.0f) survey.enclosed_share *= static_cast<float>(survey.enclosed.size()) / before;
+}
+
+/// The best view inside the heart of a site, if that is a room; else one from the site's ground.
+std::optional<Camera> view_on_site(const World& world, const Subject& subject, const Site& site,
+                                   const Camera& outside, float vertical_fov, float aspect) {
+  if (const auto heart = find_heart(world, subject, site)) {
+    SpaceSurvey survey = survey_space(world, heart->bounds);
+    keep_below_roofs(survey);
+    const auto inside = room_view(world, *heart, survey, vertical_fov, aspect);
+    if (inside) return inside;
+  }
+  return site_view(world, subject, site, outside, vertical_fov, aspect);
+}
+
+/// The median distance from a camera to what it shows in the middle of a picture; where it shows
+/// nothing there, 1.
+float distance_to_shown(const World& world, const Camera& camera) {
+  std::vector<Ray> rays;
+  for (int i = 0; i < kRaysToShown * kRaysToShown; ++i) {
+    rays.push_back(
+        camera_ray(camera, 2 * kRaysToShown, 2 * kRaysToShown,
+                   0.5f * static_cast<float>(kRaysToShown + 2 * (i % kRaysToShown) + 1),
+                   0.5f * static_cast<float>(kRaysToShown + 2 * (i / kRaysToShown) + 1)));
+  }
+  std::vector<float> distances;
+  for (const Hit& hit : trace(world, rays)) {
+    if (!hit.missed()) distances.push_back(hit.distance);
+  }
+  if (distances.empty()) return 1.0f;
+  const auto median = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), median, distances.end());
+  return *median > 0.0f ? *median : 1.0f;
+}
+
+FirstView seen_from(const World& world, const Camera& camera, bool inside) {
+  return {camera, inside, distance_to_shown(world, camera)};
 }
 
 /// Whether a view needs light of ours although the scene has surfaces that emit light.
@@ -68,19 +123,23 @@ Expected<FirstView> first_view(const World& world, const FirstViewSettings& sett
   }
 
   const SpaceSurvey survey = survey_space(world, subject.bounds);
-  if (is_room(world, subject, survey)) {
-    const auto inside = inside_view(world, survey, subject.bounds, room_fov, settings.aspect);
-    if (inside) return FirstView{*inside, true};
+  if (const auto inside = room_view(world, subject, survey, room_fov, settings.aspect)) {
+    return seen_from(world, *inside, true);
   }
   const Camera outside = outside_view(world, subject, object_fov, settings.aspect);
+  if (const auto site = find_site(world, subject)) {
+    if (const auto view = view_on_site(world, subject, *site, outside, room_fov, settings.aspect)) {
+      return seen_from(world, *view, true);
+    }
+  }
   // Windows and signs of a town at night light its streets, but not what is seen from outside
   if (lacks_light(world, outside)) {
     const auto street = street_view(world, survey, subject.bounds, room_fov, settings.aspect);
     if (street && choose_first_light(world, *street) == FirstLight::scene) {
-      return FirstView{*street, true};
+      return seen_from(world, *street, true);
     }
   }
-  return FirstView{outside};
+  return seen_from(world, outside, false);
 }
 
 }  // namespace lambent

@@ -8,24 +8,20 @@
 #include <unordered_set>
 #include <vector>
 
+#include "first_picture/seen.h"
 #include "first_picture/views.h"
-#include "raytracing/direct_light.h"
 #include "raytracing/places/places.h"
 #include "raytracing/solid_sides/find_solid_sides.h"
 #include "raytracing/trace_rays.h"
-#include "raytracing/world_access.h"
 #include "shared/constants.h"
-#include "shared/random.h"
-#include "shared/rays.h"
 
 namespace lambent {
 namespace {
 
-// In rooms of these heights [m], eyes are at the height of a standing person [m]; in others, whose
+// In rooms of these heights [m], eyes are at the height of a standing person; in others, whose
 // unit is not the metre or which are models of rooms, at a share of the room's height. Streets and
 // courts may be deeper than rooms are high.
 constexpr float kMinRoomHeight = 1.9f, kMaxRoomHeight = 20.0f, kMaxStreetDepth = 100.0f;
-constexpr float kEyeHeight = 1.6f;
 constexpr float kEyeShareOfHeight = 0.45f;
 // Highest eye in a room of human scale, as a share of its height.
 constexpr float kMaxEyeShareOfHeight = 0.6f;
@@ -44,10 +40,19 @@ constexpr float kMaxStreetFloor = 0.5f;
 // metres, kMinRoomHeight is enough: aisles and galleries beside a high hall are places, too.
 constexpr float kStandingShare = 0.75f;
 
+// A place is on top of furniture, such as a pew or a bed, where the floor drops by more than this
+// share of the height of the eye in more directions around than on a stair, at one of these shares
+// of it away.
+constexpr float kStepDown = 0.15f;
+constexpr std::array kStepsAway = {0.25f, 0.5f, 0.75f};
+constexpr int kStepsAround = 8, kMaxStepsDown = 3;
+
 // Where light of the sky or of lamps reaches at least this share of the places where an observer
 // could stand, nobody stands in the others, which are within closed blocks: the houses along a
 // street often are.
 constexpr float kMinOpenShare = 0.1f;
+// Number of rays around a place that look for the sky.
+constexpr int kRaysToSky = 64;
 
 // Most places from which panoramas are traced.
 constexpr std::size_t kMaxEyes = 110;
@@ -56,14 +61,14 @@ constexpr int kRingRays = 40;
 constexpr std::array<float, 5> kRings = {-0.42f, -0.2f, 0.0f, 0.2f, 0.42f};
 // Number of directions in which a view may look.
 constexpr int kViewDirections = 20;
+// Rays reach beyond the box of the room by this share of its diagonal.
+constexpr float kBeyondBox = 0.01f;
 // Views tilt down a little [rad]: floors show more than ceilings.
 constexpr float kTilt = 0.06f;
 
 // Distances as shares of the diagonal: the least from an eye to any surface; the one below which a
 // surface counts as near; and the one beyond which depth counts no more.
 constexpr float kClearance = 0.015f, kNear = 0.07f, kDeep = 0.5f;
-// Seed of the choice of lights.
-constexpr std::uint32_t kLitViewSeed = 4;
 // A larger share of sky than this counts against a view.
 constexpr float kMaxSky = 0.1f;
 // Weights of a view's score: mean depth of what is not sky, detail by the number of different
@@ -115,12 +120,54 @@ glm::vec3 eye_at(const OpenPlace& place) {
   return {place.position_ws.x, place.floor + eye, place.position_ws.z};
 }
 
+/// The places that are not on top of furniture, if there are any; otherwise all.
+std::vector<OpenPlace> places_on_floors(const World& world, const std::vector<OpenPlace>& places) {
+  std::vector<Ray> rays;
+  for (const OpenPlace& place : places) {
+    const glm::vec3 eye = eye_at(place);
+    const float height = eye.y - place.floor;
+    for (int i = 0; i < kStepsAround; ++i) {
+      const glm::vec3 way = direction_from_angles(kTwoPi * static_cast<float>(i) / kStepsAround, 0);
+      for (const float away : kStepsAway) {
+        rays.push_back(
+            {eye + away * height * way, 0.0f, {0.0f, -1.0f, 0.0f}, (1.0f + kStepDown) * height});
+      }
+    }
+  }
+  const std::vector<std::uint8_t> met = trace_occlusion(world, rays);
+  std::vector<OpenPlace> on_floors;
+  std::size_t ray = 0;
+  for (const OpenPlace& place : places) {
+    int down = 0;
+    for (int i = 0; i < kStepsAround; ++i, ray += kStepsAway.size()) {
+      const auto first = met.begin() + static_cast<std::ptrdiff_t>(ray);
+      if (std::count(first, first + kStepsAway.size(), 0) > 0) ++down;
+    }
+    if (down <= kMaxStepsDown) on_floors.push_back(place);
+  }
+  return on_floors.empty() ? places : on_floors;
+}
+
+/// Whether the sky is visible from a point, through glass or not: open places are too far apart to
+/// reach into small rooms of large scenes, and end at panes.
+bool sees_sky(const World& world, const glm::vec3& eye) {
+  const std::vector<Ray> rays = rays_around(eye, kRaysToSky);
+  const std::vector<std::uint8_t> met = trace_occlusion(world, rays);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (rays[i].direction.y > 0.0f && (met[i] == 0 || leads_to_sky(world, rays[i]))) return true;
+  }
+  return false;
+}
+
 /// The places that light reaches, if these are enough; otherwise all.
 std::vector<OpenPlace> lit_places(const World& world, const std::vector<OpenPlace>& places) {
   std::vector<glm::vec3> eyes(places.size());
   std::transform(places.begin(), places.end(), eyes.begin(), eye_at);
   const SolidSides sides = find_solid_sides(world, {});
-  const std::vector<std::uint8_t> is_lit = see_open_places(world, sides.open_space, eyes);
+  std::vector<std::uint8_t> is_lit = see_open_places(world, sides.open_space, eyes);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (is_lit[i] == 0 && sees_sky(world, eyes[i])) is_lit[i] = 1;
+  }
   std::vector<OpenPlace> lit;
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (is_lit[i] != 0) lit.push_back(places[i]);
@@ -134,6 +181,17 @@ float least_distance(float share, float enough, const OpenPlace& place, float sc
   return has_human_scale(place) ? std::min(share * scale, enough) : share * scale;
 }
 
+/// How far a ray from inside a box is inside it, and a little beyond, for what is in its sides [m].
+float distance_to_leave(const Bounds& box, const glm::vec3& origin, const glm::vec3& direction) {
+  float distance = kInfiniteDistance;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (direction[axis] == 0.0f) continue;
+    const float side = direction[axis] > 0.0f ? box.max[axis] : box.min[axis];
+    distance = std::min(distance, (side - origin[axis]) / direction[axis]);
+  }
+  return distance + kBeyondBox * diagonal(box);
+}
+
 /// The hits of rays around an eye: kRings.size() rings of kRingRays hits.
 struct Panorama {
   glm::vec3 eye{0.0f};
@@ -141,47 +199,6 @@ struct Panorama {
   const Hit* hits = nullptr;
   const std::uint8_t* lit = nullptr;  ///< 1 for each hit that one of the lights reaches.
 };
-
-/// A shadow ray from a point to one of the scene's lights, chosen at random: each of the lights is
-/// as likely as all emissive surfaces together.
-std::optional<Ray> ray_to_any_light(const World& world, const glm::vec3& from,
-                                    RandomStream& random) {
-  const std::vector<Light>& lights = world.scene().lights;
-  const std::size_t sources = lights.size() + (emissive_of(world).empty() ? 0 : 1);
-  const auto which = static_cast<std::size_t>(next_uniform(random) * static_cast<float>(sources));
-  if (which < lights.size()) {
-    const PunctualSample sample = sample_punctual(lights[which], from);
-    if (sample.irradiance == glm::vec3(0.0f)) return std::nullopt;
-    return Ray{from, 0.0f, sample.to_light, sample.distance};
-  }
-  const vec2 u = next_uniform2(random);
-  const EmissiveSample emitter = emissive_of(world).sample({u.x, u.y, next_uniform(random)});
-  const glm::vec3 way = emitter.position_ws - from;
-  const float distance = glm::length(way);
-  if (emitter.radiance == glm::vec3(0.0f) || distance <= 0.0f) return std::nullopt;
-  return Ray{from, 0.0f, way / distance, distance * (1.0f - kShadowRayShortening)};
-}
-
-/// 1 for each of the rays' hits that a light reaches; all 0 where the scene has no light.
-std::vector<std::uint8_t> find_lit(const World& world, std::span<const Ray> rays,
-                                   std::span<const Hit> hits) {
-  std::vector<std::uint8_t> lit(rays.size(), 0);
-  if (world.scene().lights.empty() && emissive_of(world).empty()) return lit;
-  std::vector<Ray> to_lights;
-  std::vector<std::size_t> hit_of_ray;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (hits[i].missed()) continue;
-    RandomStream random = make_random_stream(static_cast<std::uint32_t>(i), 0, kLitViewSeed);
-    const float distance = hits[i].distance * (1.0f - kShadowRayShortening);
-    const auto ray = ray_to_any_light(world, rays[i].origin + distance * rays[i].direction, random);
-    if (!ray) continue;
-    to_lights.push_back(*ray);
-    hit_of_ray.push_back(i);
-  }
-  const std::vector<std::uint8_t> shadowed = trace_occlusion(world, to_lights);
-  for (std::size_t r = 0; r < to_lights.size(); ++r) lit[hit_of_ray[r]] = shadowed[r] == 0 ? 1 : 0;
-  return lit;
-}
 
 /// Score of a view in a direction, from the rays of the panorama that are in its frame; higher is
 /// better. Minus infinity: the view is rejected.
@@ -224,7 +241,7 @@ std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
                                   const Bounds& bounds, float vertical_fov, float aspect) {
   const float scale = diagonal(bounds);
   const std::vector<OpenPlace> places =
-      lit_places(world, standing_places(survey.sheltered, kMaxEyes));
+      lit_places(world, places_on_floors(world, standing_places(survey.sheltered, kMaxEyes)));
   const std::size_t eyes = places.size();
   constexpr std::size_t kPanoramaRays = kRings.size() * kRingRays;
   std::vector<Ray> rays;
@@ -234,7 +251,9 @@ std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
     for (const float elevation : kRings) {
       for (int i = 0; i < kRingRays; ++i) {
         const float azimuth = kTwoPi * static_cast<float>(i) / kRingRays;
-        rays.push_back({eye, 0.0f, direction_from_angles(azimuth, elevation)});
+        const glm::vec3 way = direction_from_angles(azimuth, elevation);
+        // What is outdoors counts as sky
+        rays.push_back({eye, 0.0f, way, distance_to_leave(bounds, eye, way)});
       }
     }
   }

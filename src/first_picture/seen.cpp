@@ -2,14 +2,17 @@
 #include "first_picture/seen.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/parallel.h"
 #include "first_picture/survey.h"
+#include "raytracing/direct_light.h"
 #include "raytracing/surface.h"
 #include "raytracing/trace_rays.h"
 #include "raytracing/world_access.h"
 #include "scene/attributes.h"
 #include "shared/random.h"
+#include "shared/rays.h"
 
 namespace lambent {
 namespace {
@@ -26,8 +29,10 @@ constexpr int kEmitterSamples = 16, kBounceSamples = 4;
 constexpr float kLitShare = 1.0f / 32.0f;
 // Number of directions around the camera.
 constexpr int kSphereRays = 64;
-// Seed of all random numbers in this file.
+// Seed of the random numbers of measurements.
 constexpr std::uint32_t kLightSeed = 3;
+// Seed of the choice of lights to which shadow rays go.
+constexpr std::uint32_t kLitViewSeed = 4;
 
 LitPoint lit_point(const Surface& surface) {
   return {surface.position_ws, surface.geometric_normal_ws, surface.geometric_normal_ws};
@@ -99,6 +104,26 @@ PointLight light_at(const World& world, const LitPoint& point, RandomStream& ran
                         kRaysPerPoint;
   }
   return light;
+}
+
+/// A shadow ray from a point to one of the scene's lights, chosen at random: each of the lights is
+/// as likely as all emissive surfaces together.
+std::optional<Ray> ray_to_any_light(const World& world, const glm::vec3& from,
+                                    RandomStream& random) {
+  const std::vector<Light>& lights = world.scene().lights;
+  const std::size_t sources = lights.size() + (emissive_of(world).empty() ? 0 : 1);
+  const auto which = static_cast<std::size_t>(next_uniform(random) * static_cast<float>(sources));
+  if (which < lights.size()) {
+    const PunctualSample sample = sample_punctual(lights[which], from);
+    if (sample.irradiance == glm::vec3(0.0f)) return std::nullopt;
+    return Ray{from, 0.0f, sample.to_light, sample.distance};
+  }
+  const vec2 u = next_uniform2(random);
+  const EmissiveSample emitter = emissive_of(world).sample({u.x, u.y, next_uniform(random)});
+  const glm::vec3 way = emitter.position_ws - from;
+  const float distance = glm::length(way);
+  if (emitter.radiance == glm::vec3(0.0f) || distance <= 0.0f) return std::nullopt;
+  return Ray{from, 0.0f, way / distance, distance * (1.0f - kShadowRayShortening)};
 }
 
 }  // namespace
@@ -183,6 +208,26 @@ float enclosure(const World& world, const Camera& camera) {
   const std::vector<std::uint8_t> closed =
       trace_occlusion(world, rays_around(glm::vec3(camera.world_from_view[3]), kSphereRays));
   return static_cast<float>(std::count(closed.begin(), closed.end(), 1)) / kSphereRays;
+}
+
+std::vector<std::uint8_t> find_lit(const World& world, std::span<const Ray> rays,
+                                   std::span<const Hit> hits) {
+  std::vector<std::uint8_t> lit(rays.size(), 0);
+  if (world.scene().lights.empty() && emissive_of(world).empty()) return lit;
+  std::vector<Ray> to_lights;
+  std::vector<std::size_t> hit_of_ray;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (hits[i].missed()) continue;
+    RandomStream random = make_random_stream(static_cast<std::uint32_t>(i), 0, kLitViewSeed);
+    const float distance = hits[i].distance * (1.0f - kShadowRayShortening);
+    const auto ray = ray_to_any_light(world, rays[i].origin + distance * rays[i].direction, random);
+    if (!ray) continue;
+    to_lights.push_back(*ray);
+    hit_of_ray.push_back(i);
+  }
+  const std::vector<std::uint8_t> shadowed = trace_occlusion(world, to_lights);
+  for (std::size_t r = 0; r < to_lights.size(); ++r) lit[hit_of_ray[r]] = shadowed[r] == 0 ? 1 : 0;
+  return lit;
 }
 
 }  // namespace lambent

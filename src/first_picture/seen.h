@@ -2,10 +2,13 @@
 // Points that a camera sees, and where their light comes from.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "lambent/world.h"
 #include "raytracing/direct_light.h"
+#include "raytracing/raytracer.h"
 
 namespace lambent {
 
@@ -38,6 +41,11 @@ struct ViewLight {
   float sky_visibility = 0.0f;  ///< Share of the points' cosine-weighted hemispheres that is open.
 };
 ViewLight measure_view_light(const World& world, const SeenView& view);
+
+/// 1 for each of the rays' hits that one of the scene's lights reaches, chosen at random, each as
+/// likely as all emissive surfaces together; all 0 where the scene has no light.
+std::vector<std::uint8_t> find_lit(const World& world, std::span<const Ray> rays,
+                                   std::span<const Hit> hits);
 
 /// Share of the directions around the camera in which there is a surface.
 float enclosure(const World& world, const Camera& camera);

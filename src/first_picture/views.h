@@ -4,11 +4,15 @@
 
 #include <optional>
 
+#include "first_picture/site.h"
 #include "first_picture/subject.h"
 #include "first_picture/survey.h"
 #include "lambent/first_picture.h"
 
 namespace lambent {
+
+/// Height of a standing person's eyes [m].
+constexpr float kEyeHeight = 1.6f;
 
 /// The best view of the subject from outside that has all of it in the frame.
 Camera outside_view(const World& world, const Subject& subject, float vertical_fov, float aspect);
@@ -22,5 +26,11 @@ std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
 /// sky; none where the scene has no such place of a human scale.
 std::optional<Camera> street_view(const World& world, const SpaceSurvey& survey,
                                   const Bounds& bounds, float vertical_fov, float aspect);
+
+/// The best view at eye height from the ground of a site, such as a garden, a camp or a landscape,
+/// of what stands there; none where `outside`, a view of all of it, shows more of that than of the
+/// ground, or where the site has neither lights nor a ground that is a sheet.
+std::optional<Camera> site_view(const World& world, const Subject& subject, const Site& site,
+                                const Camera& outside, float vertical_fov, float aspect);
 
 }  // namespace lambent

@@ -38,17 +38,15 @@ LAMBENT_FN SeenShape seen_shape(LitPointRef point) {
   return seen_shape(point.albedo_shape, point.normal_ws, point.to_viewer_ws);
 }
 
-/// Irradiance of an unoccluded candidate at a point [W/m^2]. Coats, too, receive the mean over
-/// bumps here: a hit reflects all of its light by an albedo. For points with an albedo_shape, it is
+/// Irradiance of an unoccluded candidate at a point [W/m^2]. For points with an albedo_shape, it is
 /// weighted by the share that is reflected to the viewer over the albedo. `shape`: seen_shape() of
 /// the point.
 LAMBENT_FN vec3 unoccluded_irradiance(LitPointRef point, SeenShape shape, LightCandidate light) {
-  float cosine = bumpy_cosine(dot(point.normal_ws, light.to_light), point.mean_normal_length);
+  float received = bumpy_cosine(dot(point.normal_ws, light.to_light), point.mean_normal_length);
   float side = dot(point.geometric_normal_ws, light.to_light);
-  if (cosine <= 0.0f || side <= 0.0f) return vec3(0.0f);
-  float reflected =
-      reflected_over_albedo(shape, point.normal_ws, point.to_viewer_ws, light.to_light);
-  return light.perpendicular_irradiance * (cosine * reflected);
+  if (received <= 0.0f || side <= 0.0f) return vec3(0.0f);
+  return light.perpendicular_irradiance *
+         reflected_cosine(shape, point.normal_ws, point.to_viewer_ws, light.to_light, received);
 }
 
 /// Radiance that a surface reflects of an unoccluded candidate to a viewer [W/(m^2 sr)]. `frame` is

@@ -4,7 +4,7 @@
 // Hits of rays reflect light by their directional albedo a(v) towards the viewer, which is exact
 // for light from a uniform sky. Light of a source comes from one direction: a(v) alone reflects too
 // much of a high sun on a glossy floor, too little of it on a wall, and has no highlight.
-// reflected_over_albedo() corrects this with the surface's BRDF. Surfaces with layers have too many
+// reflected_cosine() corrects this with the surface's BRDF. Surfaces with layers have too many
 // parameters to store; their reflection is approximated by a(v) a(l) / (mean of a), which is
 // reciprocal and reflects the right share of light from any direction.
 //
@@ -168,7 +168,7 @@ LAMBENT_FN float albedo_towards(uint shape, float n_dot_l) {
 /// Graphics Forum 32(2), 2013.
 const float kMinAlphaOfHits = 0.25f;
 
-/// The part of reflected_over_albedo() that depends on the viewer, but not on the light.
+/// The part of reflected_cosine() that depends on the viewer, but not on the light.
 struct SeenShape {
   uint shape;        ///< See encode_albedo_shape().
   float diffuse;     ///< Albedo of the base.
@@ -204,18 +204,28 @@ LAMBENT_FN SeenShape seen_shape(uint shape, vec3 normal, vec3 to_viewer) {
   return seen;
 }
 
-/// Pi times the BRDF, divided by the directional albedo towards the viewer: its mean over light
-/// from a uniform sky is 1. `seen` is that of seen_shape() for this normal and viewer.
-LAMBENT_FN float reflected_over_albedo(SeenShape seen, vec3 normal, vec3 to_viewer, vec3 to_light) {
+// Least cosine to a viewer by which a coat's lobe is divided: smith_lambda() takes smaller ones for
+// it, too.
+const float kLeastViewCosine = 1e-6f;
+
+/// The cosine of a light, as far as its light is reflected to the viewer: times pi times the BRDF,
+/// over the directional albedo towards the viewer. Over light from a uniform sky, this weight of
+/// the cosine has a mean of 1. `received`: the cosine for the base, see bumpy_cosine(). Coats are
+/// as rough as their bumps, have the cosine to their mean normal, and show nothing of a light below
+/// its horizon. `seen` is that of seen_shape() for this normal and viewer.
+LAMBENT_FN float reflected_cosine(SeenShape seen, vec3 normal, vec3 to_viewer, vec3 to_light,
+                                  float received) {
   float n_dot_l = dot(normal, to_light);
-  if (seen.albedo <= 0.0f || n_dot_l <= 0.0f) return albedo_towards(seen.shape, n_dot_l);
+  if (seen.albedo <= 0.0f) return received * albedo_towards(seen.shape, n_dot_l);
   vec3 sum = to_viewer + to_light;
   vec3 h = sum / max(length(sum), 1e-6f);
   float f = seen.f0 + (seen.f90 - seen.f0) * schlick_power(dot(to_viewer, h));
+  float base = (1.0f - f) * seen.diffuse * received;
+  if (n_dot_l <= 0.0f) return base / seen.albedo;
   float d = ggx_distribution(dot(normal, h), seen.alpha);
   float g = 1.0f / (1.0f + seen.lambda + ggx_lambda(n_dot_l, seen.alpha));
-  float lobe = kPi * f * d * g / (4.0f * dot(normal, to_viewer) * n_dot_l);
-  return ((1.0f - f) * seen.diffuse + lobe * seen.lobe_scale) / seen.albedo;
+  float coat = kPi * f * d * g / (4.0f * max(dot(normal, to_viewer), kLeastViewCosine));
+  return (base + coat * seen.lobe_scale) / seen.albedo;
 }
 
 LAMBENT_END

@@ -115,13 +115,18 @@ TEST(AlbedoTowards, IsOneWithoutACoat) {
   EXPECT_EQ(albedo_towards(shape, 0.2f), 1.0f);
 }
 
-/// reflected_over_albedo() on a surface that faces up.
-float reflected(uint shape, const vec3& to_viewer, const vec3& to_light) {
+/// reflected_cosine() on a surface that faces up and whose base receives this cosine.
+float reflected(uint shape, const vec3& to_viewer, const vec3& to_light, float received) {
   const vec3 up(0.0f, 0.0f, 1.0f);
-  return reflected_over_albedo(seen_shape(shape, up, to_viewer), up, to_viewer, to_light);
+  return reflected_cosine(seen_shape(shape, up, to_viewer), up, to_viewer, to_light, received);
 }
 
-TEST(ReflectedOverAlbedo, HasAMeanOfOneForEveryViewer) {
+/// reflected_cosine() over the cosine.
+float reflected(uint shape, const vec3& to_viewer, const vec3& to_light) {
+  return reflected(shape, to_viewer, to_light, to_light.z) / to_light.z;
+}
+
+TEST(ReflectedCosine, HasAMeanOfOneForEveryViewer) {
   for (const float roughness : {0.05f, 0.3f, 0.6f, 1.0f}) {
     for (const Reflectance& surface : coated_surfaces(roughness)) {
       const uint shape = encode_albedo_shape(surface);
@@ -138,7 +143,7 @@ TEST(ReflectedOverAlbedo, HasAMeanOfOneForEveryViewer) {
   }
 }
 
-TEST(ReflectedOverAlbedo, IsTheReflectionFunctionOfRoughCoats) {
+TEST(ReflectedCosine, IsTheReflectionFunctionOfRoughCoats) {
   const Reflectance gray = {vec3(0.3f), 0.49f, vec3(0.04f), 1.0f, no_layers(), 1.0f};
   const uint shape = encode_albedo_shape(gray);
   for (const float cosine : {0.2f, 0.7f}) {
@@ -155,11 +160,31 @@ TEST(ReflectedOverAlbedo, IsTheReflectionFunctionOfRoughCoats) {
 }
 
 // So weak a coat has no light left in the eight bits of its shape.
-TEST(ReflectedOverAlbedo, IsFiniteForCoatsThatReflectAlmostNothing) {
+TEST(ReflectedCosine, IsFiniteForCoatsThatReflectAlmostNothing) {
   const Reflectance faint = {vec3(0.5f), 0.04f, vec3(1e-6f), 1e-3f, no_layers(), 1.0f};
   const uint shape = encode_albedo_shape(faint);
   ASSERT_NE(shape, 0u);
   EXPECT_NEAR(reflected(shape, direction_at(0.5f), direction_at(0.7f)), 1.0f, 0.01f);
+}
+
+// Bumps receive light from the horizon of their mean normal, where a strip of light may lie on the
+// floor that it lights. A single such sample made the field of a hangar burst.
+TEST(ReflectedCosine, OfCoatsEndsAtTheHorizon) {
+  const Reflectance metal = {vec3(0.0f), 0.1f, vec3(0.1f), 1.0f, no_layers(), 1.0f};
+  const Reflectance plastic = {vec3(0.5f), 0.1f, vec3(0.04f), 1.0f, no_layers(), 1.0f};
+  constexpr float kReceived = 0.05f;
+  const auto towards = [&](const Reflectance& surface, float cosine, float n_dot_l) {
+    const vec3 to_light(-std::sqrt(1.0f - n_dot_l * n_dot_l), 0.0f, n_dot_l);
+    return reflected(encode_albedo_shape(surface), direction_at(cosine), to_light, kReceived);
+  };
+  for (const float cosine : {0.01f, 0.3f, 0.9f}) {
+    for (const float n_dot_l : {1e-6f, 1e-9f, 1e-14f, 1e-30f, -0.01f}) {
+      EXPECT_LT(towards(metal, cosine, n_dot_l), 0.02f) << cosine << ", " << n_dot_l;
+      const float of_base = towards(plastic, cosine, n_dot_l);
+      EXPECT_LT(of_base, 1.1f * kReceived) << cosine << ", " << n_dot_l;
+    }
+  }
+  EXPECT_GT(towards(plastic, 0.9f, 1e-9f), 0.5f * kReceived);
 }
 
 TEST(SeenThroughGlass, LowersNoAlbedoThatIsHighTowardsTheViewerAlone) {
@@ -173,7 +198,7 @@ TEST(SeenThroughGlass, LowersNoAlbedoThatIsHighTowardsTheViewerAlone) {
                   0.5f * 0.95f * kInvPi);
 }
 
-TEST(ReflectedOverAlbedo, WidensTheLobesOfMirrors) {
+TEST(ReflectedCosine, WidensTheLobesOfMirrors) {
   const Reflectance mirror = {vec3(0.0f), kMinGgxAlpha, vec3(1.0f), 1.0f, no_layers(), 1.0f};
   const vec3 to_viewer = direction_at(0.7f);
   const vec3 mirrored(-to_viewer.x, 0.0f, to_viewer.z);

@@ -32,5 +32,16 @@ TEST(FirstView, ShowsASmallThingInTheRoomThatDwarfsIt) {
   EXPECT_LT(hit.distance, 2.0f);
 }
 
+TEST(FirstView, TellsHowFarAwayIsWhatItShows) {
+  for (const float size : {0.01f, 1.0f, 50.0f}) {
+    const glm::vec3 low(3.0f, 1.0f, -2.0f);
+    const Scene scene = test::scene_of({test::box_mesh(low, low + size)});
+    const FirstView view = first_view(World(scene), {}).value();
+    const glm::vec3 eye(view.camera.world_from_view[3]);
+    const glm::vec3 target = eye - view.distance * glm::vec3(view.camera.world_from_view[2]);
+    EXPECT_LT(glm::distance(target, low + 0.5f * size), size) << size;
+  }
+}
+
 }  // namespace
 }  // namespace lambent::small_subject_test

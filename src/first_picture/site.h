@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Grounds with things on them: gardens, landscapes, houses in their grounds.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "first_picture/subject.h"
+
+namespace lambent {
+
+/// A ground of a human scale with things on it.
+struct Site {
+  std::vector<bool> is_ground;        ///< For each instance of the scene.
+  std::vector<std::uint32_t> things;  ///< Instances of the subject that are on the ground.
+  std::vector<bool> is_high;          ///< For each instance of the scene: a thing, and no path.
+  std::size_t kinds = 0;              ///< Number of different meshes among the things.
+};
+
+/// The site that a subject is, if it is one. Grounds that dwarf the subject count, too.
+std::optional<Site> find_site(const World& world, const Subject& subject);
+
+/// Whether a site's ground is a sheet, as terrains are: what has an underside may be a thing, such
+/// as a circuit board.
+bool is_sheet(const World& world, const Subject& subject, const Site& site);
+
+/// The small part of a site that holds most kinds of its things, such as a furnished house among
+/// trees, if there is one.
+std::optional<Subject> find_heart(const World& world, const Subject& subject, const Site& site);
+
+}  // namespace lambent
