@@ -153,7 +153,7 @@ Expected<void> add_asked_light(const LightOptions& options, Scene& scene) {
 
 Expected<AddedLight> add_first_light(const LightOptions& options, const Camera& camera,
                                      const std::optional<Scene>& sky_dome, Scene& scene,
-                                     World& world) {
+                                     World& world, std::optional<FirstLight> chosen) {
   const auto nothing_added = [](std::string text) {
     return AddedLight{FirstLight::scene, std::move(text)};
   };
@@ -166,8 +166,8 @@ Expected<AddedLight> add_first_light(const LightOptions& options, const Camera& 
     if (const auto changes = world.update(); !changes) return tl::unexpected(changes.error());
   }
   if (names_light(options)) return nothing_added("as asked");
-  const FirstLight light =
-      options.light == "auto" ? choose_first_light(world, camera) : light_of_name(options.light);
+  if (options.light != "auto") chosen = light_of_name(options.light);
+  const FirstLight light = chosen ? *chosen : choose_first_light(world, camera);
   if (light == FirstLight::scene)
     return nothing_added(describe(light, scene, sky_dome.has_value()));
   set_first_light(light, world, camera, scene);

@@ -39,9 +39,10 @@ struct AddedLight {
 
 /// Adds the light that the options leave to the program, as the camera's view needs it, and updates
 /// the world. `scene` is the world's scene. `sky_dome`, which take_sky_dome took from it, becomes
-/// its sky where the options request no other.
+/// its sky where the options request no other. `chosen`: what suits more than this view, a
+/// sequence's; none: what suits this view is chosen.
 Expected<AddedLight> add_first_light(const LightOptions& options, const Camera& camera,
                                      const std::optional<Scene>& sky_dome, Scene& scene,
-                                     World& world);
+                                     World& world, std::optional<FirstLight> chosen = {});
 
 }  // namespace lambent::cli

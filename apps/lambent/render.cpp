@@ -95,8 +95,14 @@ Expected<void> render(const RenderOptions& options) {
   const float aspect = static_cast<float>(size->x) / static_cast<float>(size->y);
   const Expected<View> view = choose_view(options.scene, world, aspect);
   if (!view) return tl::unexpected(view.error());
+  std::optional<FirstLight> chosen;
+  if (options.frames > 0 && options.scene.light.light == "auto" && !opened->sky_dome) {
+    const auto suits = choose_light_of_sequence(options, {scene, world, *animation, false}, *view);
+    if (!suits) return tl::unexpected(suits.error());
+    chosen = *suits;
+  }
   const auto light =
-      add_first_light(options.scene.light, view->camera, opened->sky_dome, scene, world);
+      add_first_light(options.scene.light, view->camera, opened->sky_dome, scene, world, chosen);
   if (!light) return tl::unexpected(light.error());
   tell("camera: " + describe(*view));
   tell("light: " + light->description);

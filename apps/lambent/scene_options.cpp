@@ -174,7 +174,8 @@ std::string describe(const View& view) {
   // from the origin beside that, more digits are needed for the same direction
   const glm::vec3 target = eye - view.distance * glm::vec3(view.camera.world_from_view[2]);
   const float larger = std::max(glm::length(eye) / view.distance, 1.0f);
-  const int digits = std::min(kDigitsOfView + static_cast<int>(std::log10(larger)), kMostDigits);
+  const int digits =
+      std::min(kDigitsOfView + static_cast<int>(std::ceil(std::log10(larger))), kMostDigits);
   char text[256];
   std::snprintf(text, sizeof text, "%s, as --eye=%.*g,%.*g,%.*g --target=%.*g,%.*g,%.*g --fov %.3g",
                 view.from == View::From::inside ? "inside the scene" : "the whole object", digits,

@@ -28,6 +28,11 @@ constexpr int kExposedSide = 32, kExposedSamples = 256;
 // what is twice as bright as it should be still shows.
 constexpr float kMinDifference = 1.0f;
 
+/// The frame at one of some places that are spread evenly over a sequence; between frames, too.
+double surveyed_frame(const RenderOptions& options, int place, int places) {
+  return place * (options.frames - 1.0) / std::max(places - 1, 1);
+}
+
 /// Whether the program chooses the exposure of the sequence.
 bool chooses_exposure(const RenderOptions& options) {
   const auto asked = parse_exposure(options.exposure);
@@ -79,6 +84,28 @@ Expected<Camera> camera_of_pose(const RenderOptions& options, const View& first,
   return camera_of_scene(options.scene, scene);
 }
 
+Expected<FirstLight> choose_light_of_sequence(const RenderOptions& options, const PosedScene& posed,
+                                              const View& view) {
+  FirstLight light = choose_first_light(posed.world, view.camera);
+  // FirstLight::sky is for scenes with suns
+  const bool may_need_sky = light == FirstLight::scene && !posed.scene.lights.empty();
+  if (!may_need_sky || posed.scene.animations.empty()) return light;
+  begin_step("looking for the sky");
+  const int places = std::min(options.frames, kSurveyed);
+  // The first frame comes last, and stays
+  for (int place = places - 1; place >= 0; --place) {
+    const auto changes =
+        pose_at(posed, time_of_frame(options, surveyed_frame(options, place, places)));
+    if (!changes) return tl::unexpected(changes.error());
+    const Expected<Camera> camera = camera_of_pose(options, view, posed.scene);
+    if (camera && choose_first_light(posed.world, *camera) == FirstLight::sky) {
+      light = FirstLight::sky;
+      place = std::min(place, 1);
+    }
+  }
+  return light;
+}
+
 Expected<SequenceSurvey> survey_sequence(const RenderOptions& options, const PosedScene& posed,
                                          const View& view, const glm::ivec2& size,
                                          const InterruptGuard& guard) {
@@ -99,7 +126,7 @@ Expected<SequenceSurvey> survey_sequence(const RenderOptions& options, const Pos
   // The first frame comes last, and stays
   for (int place = places - 1; place >= 0; --place) {
     if (guard.interrupted()) place = 0;
-    const double frame = place * (options.frames - 1.0) / std::max(places - 1, 1);
+    const double frame = surveyed_frame(options, place, places);
     const auto changes = pose_at(posed, time_of_frame(options, frame));
     if (!changes) return tl::unexpected(changes.error());
     const Expected<Camera> camera = camera_of_pose(options, view, posed.scene);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lambent/error.h"
+#include "lambent/first_picture.h"
 #include "lambent/interrupts.h"
 #include "lambent/render_options.h"
 #include "lambent/scene.h"
@@ -33,6 +34,12 @@ Expected<WorldChanges> pose_at(const PosedScene& posed, double time_s);
 /// does any where nothing is animated.
 Expected<Camera> camera_of_pose(const RenderOptions& options, const View& first,
                                 const Scene& scene);
+
+/// The light for a sequence without a sky of its own: that of its first frame's `view`, or a sky
+/// where one of a few later frames needs it, such as one in which a door is open. The scene is in
+/// the first frame's pose, and stays.
+Expected<FirstLight> choose_light_of_sequence(const RenderOptions& options, const PosedScene& posed,
+                                              const View& view);
 
 struct SequenceSurvey {
   /// The near_box() of places along the camera's path, in order; empty where it does not move, and

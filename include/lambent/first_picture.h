@@ -31,9 +31,8 @@ struct FirstView {
 
 /// Finds a camera by what it would show: a three-quarter view of the whole object from outside, or,
 /// where the scene is a shell around most of its contents, a view at eye height in its open space,
-/// or, on a wide ground, one of what stands there (docs/cli.md has the rules). Traces up to 150,000
-/// rays. The same world gives the same view. Fails
-/// on settings out of range.
+/// or, on a wide ground, one of what stands there (docs/cli.md has the rules). Traces 20,000 to
+/// 500,000 rays. The same world gives the same view. Fails on settings out of range.
 Expected<FirstView> first_view(const World& world, const FirstViewSettings& settings = {});
 
 /// Whether a picture of this aspect, width over height, shows any surface: by a grid of rays, 128

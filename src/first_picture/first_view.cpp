@@ -23,8 +23,8 @@ constexpr float kRoomFov = 60.0f;
 constexpr int kRaysAlongRow = 128;
 constexpr float kMostRows = 1024.0f;
 
-// Rays along each edge of the middle half of a picture that measure how far away it is.
-constexpr int kRaysToShown = 8;
+// Rays across and up the picture, or its middle, that measure how far away it is.
+constexpr int kRaysToShown = 12;
 
 Expected<void> check(const FirstViewSettings& settings) {
   const float fov = settings.vertical_fov.value_or(1.0f);
@@ -44,7 +44,7 @@ std::optional<Camera> room_view(const World& world, const Subject& subject,
   return inside_view(world, survey, subject.bounds, vertical_fov, aspect);
 }
 
-/// Leaves the enclosed places below a roof: among hills, all that is outdoors is enclosed, too.
+/// Keeps only the enclosed places below a roof: among hills, all that is outdoors is enclosed, too.
 void keep_below_roofs(SpaceSurvey& survey) {
   const auto before = static_cast<float>(survey.enclosed.size());
   const auto is_open = [](const OpenPlace& place) { return place.open_above; };
@@ -65,28 +65,26 @@ std::optional<Camera> view_on_site(const World& world, const Subject& subject, c
   return site_view(world, subject, site, outside, vertical_fov, aspect);
 }
 
-/// The median distance from a camera to what it shows in the middle of a picture; where it shows
-/// nothing there, 1.
-float distance_to_shown(const World& world, const Camera& camera) {
-  std::vector<Ray> rays;
-  for (int i = 0; i < kRaysToShown * kRaysToShown; ++i) {
-    rays.push_back(
-        camera_ray(camera, 2 * kRaysToShown, 2 * kRaysToShown,
-                   0.5f * static_cast<float>(kRaysToShown + 2 * (i % kRaysToShown) + 1),
-                   0.5f * static_cast<float>(kRaysToShown + 2 * (i / kRaysToShown) + 1)));
+/// The median distance from a camera to what it shows in the middle of a picture; where nothing is
+/// there, as in a ring, in all of it; 1 where it shows nothing.
+float distance_to_shown(const World& world, const Camera& camera, float aspect) {
+  Camera middle = camera;
+  middle.vertical_fov = 2.0f * std::atan(0.5f * std::tan(0.5f * camera.vertical_fov));
+  for (const Camera& part : {middle, camera}) {
+    std::vector<float> distances;
+    for (const Hit& hit : trace(world, frame_rays(part, aspect, kRaysToShown, kRaysToShown))) {
+      if (!hit.missed() && hit.distance > 0.0f) distances.push_back(hit.distance);
+    }
+    if (distances.empty()) continue;
+    const auto median = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), median, distances.end());
+    return *median;
   }
-  std::vector<float> distances;
-  for (const Hit& hit : trace(world, rays)) {
-    if (!hit.missed()) distances.push_back(hit.distance);
-  }
-  if (distances.empty()) return 1.0f;
-  const auto median = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), median, distances.end());
-  return *median > 0.0f ? *median : 1.0f;
+  return 1.0f;
 }
 
-FirstView seen_from(const World& world, const Camera& camera, bool inside) {
-  return {camera, inside, distance_to_shown(world, camera)};
+FirstView seen_from(const World& world, const Camera& camera, float aspect, bool inside) {
+  return {camera, inside, distance_to_shown(world, camera, aspect)};
 }
 
 /// Whether a view needs light of ours although the scene has surfaces that emit light.
@@ -124,22 +122,22 @@ Expected<FirstView> first_view(const World& world, const FirstViewSettings& sett
 
   const SpaceSurvey survey = survey_space(world, subject.bounds);
   if (const auto inside = room_view(world, subject, survey, room_fov, settings.aspect)) {
-    return seen_from(world, *inside, true);
+    return seen_from(world, *inside, settings.aspect, true);
   }
   const Camera outside = outside_view(world, subject, object_fov, settings.aspect);
   if (const auto site = find_site(world, subject)) {
     if (const auto view = view_on_site(world, subject, *site, outside, room_fov, settings.aspect)) {
-      return seen_from(world, *view, true);
+      return seen_from(world, *view, settings.aspect, true);
     }
   }
   // Windows and signs of a town at night light its streets, but not what is seen from outside
   if (lacks_light(world, outside)) {
     const auto street = street_view(world, survey, subject.bounds, room_fov, settings.aspect);
     if (street && choose_first_light(world, *street) == FirstLight::scene) {
-      return seen_from(world, *street, true);
+      return seen_from(world, *street, settings.aspect, true);
     }
   }
-  return seen_from(world, outside, false);
+  return seen_from(world, outside, settings.aspect, false);
 }
 
 }  // namespace lambent

@@ -40,18 +40,20 @@ constexpr float kMaxStreetFloor = 0.5f;
 // metres, kMinRoomHeight is enough: aisles and galleries beside a high hall are places, too.
 constexpr float kStandingShare = 0.75f;
 
-// A place is on top of furniture, such as a pew or a bed, where the floor drops by more than this
-// share of the height of the eye in more directions around than on a stair, at one of these shares
-// of it away.
+// An observer on furniture, such as a pew or a bed, sees the floor drop by more than this share of
+// the eye's height, at one of these shares of it away, in more directions than on a stair, where it
+// is three of eight.
 constexpr float kStepDown = 0.15f;
 constexpr std::array kStepsAway = {0.25f, 0.5f, 0.75f};
 constexpr int kStepsAround = 8, kMaxStepsDown = 3;
+constexpr std::size_t kStepsOfPlace = kStepsAround * kStepsAway.size();
 
 // Where light of the sky or of lamps reaches at least this share of the places where an observer
 // could stand, nobody stands in the others, which are within closed blocks: the houses along a
 // street often are.
 constexpr float kMinOpenShare = 0.1f;
-// Number of rays around a place that look for the sky.
+// Number of rays around a place, half of which go up and look for the sky: one finds a window that
+// fills a thirtieth of that.
 constexpr int kRaysToSky = 64;
 
 // Most places from which panoramas are traced.
@@ -61,7 +63,7 @@ constexpr int kRingRays = 40;
 constexpr std::array<float, 5> kRings = {-0.42f, -0.2f, 0.0f, 0.2f, 0.42f};
 // Number of directions in which a view may look.
 constexpr int kViewDirections = 20;
-// Rays reach beyond the box of the room by this share of its diagonal.
+// Rays reach beyond the box of the room by this share of its diagonal, to walls on its sides.
 constexpr float kBeyondBox = 0.01f;
 // Views tilt down a little [rad]: floors show more than ceilings.
 constexpr float kTilt = 0.06f;
@@ -134,22 +136,33 @@ std::vector<OpenPlace> places_on_floors(const World& world, const std::vector<Op
       }
     }
   }
+  // A wall hides what is behind it
+  std::vector<Ray> ways;
+  for (const Ray& ray : rays) {
+    const glm::vec3 eye = eye_at(places[ways.size() / kStepsOfPlace]);
+    const glm::vec3 way = ray.origin - eye;
+    ways.push_back({eye, 0.0f, glm::normalize(way), glm::length(way)});
+  }
   const std::vector<std::uint8_t> met = trace_occlusion(world, rays);
+  const std::vector<std::uint8_t> hidden = trace_occlusion(world, ways);
   std::vector<OpenPlace> on_floors;
   std::size_t ray = 0;
   for (const OpenPlace& place : places) {
     int down = 0;
-    for (int i = 0; i < kStepsAround; ++i, ray += kStepsAway.size()) {
-      const auto first = met.begin() + static_cast<std::ptrdiff_t>(ray);
-      if (std::count(first, first + kStepsAway.size(), 0) > 0) ++down;
+    for (int i = 0; i < kStepsAround; ++i) {
+      bool drops = false;
+      for (std::size_t step = 0; step < kStepsAway.size(); ++step, ++ray) {
+        drops = drops || (met[ray] == 0 && hidden[ray] == 0);
+      }
+      if (drops) ++down;
     }
     if (down <= kMaxStepsDown) on_floors.push_back(place);
   }
   return on_floors.empty() ? places : on_floors;
 }
 
-/// Whether the sky is visible from a point, through glass or not: open places are too far apart to
-/// reach into small rooms of large scenes, and end at panes.
+/// Whether the sky is visible from a point, through glass or not. see_open_places() tests a coarse
+/// grid, which misses small rooms of large scenes, and takes panes for walls.
 bool sees_sky(const World& world, const glm::vec3& eye) {
   const std::vector<Ray> rays = rays_around(eye, kRaysToSky);
   const std::vector<std::uint8_t> met = trace_occlusion(world, rays);
@@ -181,8 +194,10 @@ float least_distance(float share, float enough, const OpenPlace& place, float sc
   return has_human_scale(place) ? std::min(share * scale, enough) : share * scale;
 }
 
-/// How far a ray from inside a box is inside it, and a little beyond, for what is in its sides [m].
-float distance_to_leave(const Bounds& box, const glm::vec3& origin, const glm::vec3& direction) {
+/// How far a ray goes until it leaves a box, and a little beyond, for what is in its sides [m].
+float distance_to_leave(Bounds box, const glm::vec3& origin, const glm::vec3& direction) {
+  // Floors may be below the box, and eyes, too
+  box.add({origin, origin});
   float distance = kInfiniteDistance;
   for (int axis = 0; axis < 3; ++axis) {
     if (direction[axis] == 0.0f) continue;

@@ -141,18 +141,8 @@ Judgement judge(const World& world, const Camera& camera, const std::vector<Surf
   const auto seen = static_cast<float>(std::count(hidden.begin(), hidden.end(), 0));
   judgement.seen = points.empty() ? 0.0f : seen / static_cast<float>(points.size());
 
-  rays.clear();
-  const float tan_y = std::tan(0.5f * camera.vertical_fov);
-  for (int y = 0; y < kRaysUp; ++y) {
-    for (int x = 0; x < kRaysAcross; ++x) {
-      const glm::vec3 view(
-          (2.0f * (static_cast<float>(x) + 0.5f) / kRaysAcross - 1.0f) * tan_y * aspect,
-          (2.0f * (static_cast<float>(y) + 0.5f) / kRaysUp - 1.0f) * tan_y, -1.0f);
-      rays.push_back({eye, 0.0f, glm::normalize(glm::mat3(camera.world_from_view) * view)});
-    }
-  }
   float met = 0.0f, backs = 0.0f;
-  for (const Hit& hit : trace(world, rays)) {
+  for (const Hit& hit : trace(world, frame_rays(camera, aspect, kRaysAcross, kRaysUp))) {
     if (hit.missed()) continue;
     met += 1.0f;
     if (shows_back(world.scene(), hit)) backs += 1.0f;

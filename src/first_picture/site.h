@@ -14,8 +14,8 @@ namespace lambent {
 struct Site {
   std::vector<bool> is_ground;        ///< For each instance of the scene.
   std::vector<std::uint32_t> things;  ///< Instances of the subject that are on the ground.
-  std::vector<bool> is_high;          ///< For each instance of the scene: a thing, and no path.
-  std::size_t kinds = 0;              ///< Number of different meshes among the things.
+  std::vector<bool> is_high;  ///< For each instance of the scene: a thing of at least 0.5 m.
+  std::size_t kinds = 0;      ///< Number of different meshes among the things.
 };
 
 /// The site that a subject is, if it is one. Grounds that dwarf the subject count, too.

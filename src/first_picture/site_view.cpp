@@ -3,7 +3,6 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <span>
-#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -17,19 +16,22 @@
 namespace lambent {
 namespace {
 
-// Where a view from outside shows more of the things than this share of what it shows, it is good.
+// A view from outside is kept where things cover more than this share of the surfaces that it
+// shows.
 constexpr float kMaxThings = 0.5f;
 
-// Number of things that candidates look at, and of distances from each of them: a share of the
-// thing's diagonal, plus what lets a person see all around [m].
+// Most things that candidates look at. Each is looked at from these distances, as shares of its
+// diagonal, and in addition from as far away as lets a person see around a small thing [m].
 constexpr std::size_t kTargets = 64;
 constexpr float kDistances[] = {1.0f, 1.6f, 2.5f, 4.0f};
 constexpr float kDistanceToSmall = 3.0f;
 // Views look up and down by at most this slope.
 constexpr float kMaxSlope = 0.2f;
 // Number of rays across and up the frame by which candidates are judged.
-constexpr std::size_t kSiteAcross = 40, kSiteUp = 24, kFrameRays = kSiteAcross * kSiteUp;
-// Nothing is nearer to the eye than the first distance, and little than the second [m].
+constexpr int kSiteAcross = 40, kSiteUp = 24;
+constexpr std::size_t kFrameRays = std::size_t{kSiteAcross} * kSiteUp;
+// No ray may end nearer to the eye than the first distance, and few at things nearer than the
+// second [m].
 constexpr float kSiteClearance = 0.7f, kSiteNear = 2.5f;
 // Kinds of things count where they are in this inner part of the frame's width and height.
 constexpr float kInnerFrame = 0.75f;
@@ -43,33 +45,25 @@ constexpr float kThingsWeight = 1.0f, kKindsWeight = 2.0f, kSiteLitWeight = 1.0f
                 kSiteNearWeight = 1.5f, kCutWeight = 1.5f, kSiteSkyWeight = 1.0f,
                 kSiteBackWeight = 0.8f;
 
-/// Place of a coarse grid's ray in a picture: -1 to 1 across and up.
-glm::vec2 place_in_frame(std::size_t ray) {
-  const glm::vec2 at(ray % kSiteAcross, ray / kSiteAcross);
-  return 2.0f * (at + 0.5f) / glm::vec2(kSiteAcross, kSiteUp) - 1.0f;
-}
-
+/// Whether a ray of frame_rays() is in the inner part of the frame.
 bool is_inside_frame(std::size_t ray) {
-  return glm::all(glm::lessThan(glm::abs(place_in_frame(ray)), glm::vec2(kInnerFrame)));
+  const glm::vec2 at(ray % kSiteAcross, ray / kSiteAcross);
+  const glm::vec2 place = 2.0f * (at + 0.5f) / glm::vec2(kSiteAcross, kSiteUp) - 1.0f;
+  return glm::all(glm::lessThan(glm::abs(place), glm::vec2(kInnerFrame)));
 }
 
-/// The rays of a coarse grid over a picture.
-std::vector<Ray> frame_rays(const Camera& camera, float aspect) {
-  std::vector<Ray> rays;
-  const float tan_y = std::tan(0.5f * camera.vertical_fov);
-  for (std::size_t i = 0; i < kFrameRays; ++i) {
-    const glm::vec2 at = place_in_frame(i);
-    const glm::vec3 view(at.x * tan_y * aspect, at.y * tan_y, -1.0f);
-    rays.push_back({glm::vec3(camera.world_from_view[3]), 0.0f,
-                    glm::normalize(glm::mat3(camera.world_from_view) * view)});
-  }
-  return rays;
+/// Whether there are lamps. Suns are exported with things of all kinds.
+bool has_lamps(const World& world) {
+  return !emissive_of(world).empty() ||
+         std::ranges::any_of(world.scene().lights, [](const Light& light) {
+           return light.type != Light::Type::directional && light.intensity != glm::vec3(0.0f);
+         });
 }
 
 /// Whether a view from outside shows the ground above all.
 bool shows_ground(const World& world, const Site& site, const Camera& outside, float aspect) {
   float met = 0.0f, things = 0.0f;
-  for (const Hit& hit : trace(world, frame_rays(outside, aspect))) {
+  for (const Hit& hit : trace(world, frame_rays(outside, aspect, kSiteAcross, kSiteUp))) {
     if (hit.missed()) continue;
     met += 1.0f;
     if (site.is_high[hit.instance]) things += 1.0f;
@@ -77,21 +71,34 @@ bool shows_ground(const World& world, const Site& site, const Camera& outside, f
   return things <= kMaxThings * met;
 }
 
-/// Cameras on the ground that look at things: at one of each kind, then at another of each.
+/// Some of a list, evenly spread over it.
+std::vector<std::uint32_t> spread_over(const std::vector<std::uint32_t>& all, std::size_t count) {
+  std::vector<std::uint32_t> some(std::min(count, all.size()));
+  for (std::size_t i = 0; i < some.size(); ++i) some[i] = all[i * all.size() / some.size()];
+  return some;
+}
+
+/// The things that candidates look at: one of each kind, then others.
+std::vector<std::uint32_t> choose_targets(const World& world, const Site& site) {
+  std::unordered_set<int> kinds;
+  std::vector<std::uint32_t> firsts, others;
+  for (const std::uint32_t i : site.things) {
+    if (!site.is_high[i]) continue;
+    (kinds.insert(world.scene().instances[i].mesh).second ? firsts : others).push_back(i);
+  }
+  std::vector<std::uint32_t> targets = spread_over(firsts, kTargets);
+  const std::vector<std::uint32_t> more = spread_over(others, kTargets - targets.size());
+  targets.insert(targets.end(), more.begin(), more.end());
+  return targets;
+}
+
+/// Cameras on the ground that look at things.
 std::vector<Camera> candidates(const World& world, const Subject& subject, const Site& site,
                                float vertical_fov) {
-  std::vector<std::uint32_t> order = site.things;
-  std::erase_if(order, [&](std::uint32_t i) { return !site.is_high[i]; });
-  std::unordered_map<int, int> count_of_kind;
-  std::vector<int> turn(world.scene().instances.size());
-  for (const std::uint32_t i : order) turn[i] = count_of_kind[world.scene().instances[i].mesh]++;
-  std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return turn[i]; });
-  order.resize(std::min(order.size(), kTargets));
-
   std::vector<Ray> down;
   std::vector<glm::vec3> targets;
-  const float top = subject.bounds.max.y + kEyeHeight;
-  for (const std::uint32_t i : order) {
+  const float top = subject.site.max.y + kEyeHeight;
+  for (const std::uint32_t i : choose_targets(world, site)) {
     const Bounds box = world.instance_bounds(static_cast<int>(i));
     const glm::vec3 target = 0.5f * (box.min + box.max);
     for (const float share : kDistances) {
@@ -129,11 +136,11 @@ float score_view(const Scene& scene, const Site& site, std::span<const Hit> hits
       continue;
     }
     if (hit.distance < kSiteClearance) return -kInfiniteDistance;
-    if (hit.distance < kSiteNear) near += 1.0f;
     if (shows_back(scene, hit)) backs += 1.0f;
     if (is_lit[i] != 0) lit += 1.0f;
     if (!site.is_high[hit.instance]) continue;
     things += 1.0f;
+    if (hit.distance < kSiteNear) near += 1.0f;
     if (is_inside_frame(i)) {
       kinds.insert(scene.instances[hit.instance].mesh);
     } else {
@@ -154,14 +161,16 @@ float score_view(const Scene& scene, const Site& site, std::span<const Hit> hits
 
 std::optional<Camera> site_view(const World& world, const Subject& subject, const Site& site,
                                 const Camera& outside, float vertical_fov, float aspect) {
-  if (!shows_ground(world, site, outside, aspect)) return std::nullopt;
-  const bool has_lights = !world.scene().lights.empty() || !emissive_of(world).empty();
-  if (!has_lights && !is_sheet(world, subject, site)) return std::nullopt;
+  // A ground that dwarfs what stands on it is no part of the subject, which is then seen as a whole
+  const bool has_ground =
+      std::ranges::any_of(subject.instances, [&](std::uint32_t i) { return site.is_ground[i]; });
+  if (!has_ground || !shows_ground(world, site, outside, aspect)) return std::nullopt;
+  if (!has_lamps(world) && !is_sheet(world, subject, site)) return std::nullopt;
 
   const std::vector<Camera> cameras = candidates(world, subject, site, vertical_fov);
   std::vector<Ray> rays;
   for (const Camera& camera : cameras) {
-    const std::vector<Ray> frame = frame_rays(camera, aspect);
+    const std::vector<Ray> frame = frame_rays(camera, aspect, kSiteAcross, kSiteUp);
     rays.insert(rays.end(), frame.begin(), frame.end());
   }
   const std::vector<Hit> hits = trace(world, rays);

@@ -84,6 +84,20 @@ std::vector<Ray> rays_around(const glm::vec3& place_ws, int count, float reach) 
   return rays;
 }
 
+std::vector<Ray> frame_rays(const Camera& camera, float aspect, int across, int up) {
+  std::vector<Ray> rays;
+  const float tan_y = std::tan(0.5f * camera.vertical_fov);
+  for (int y = 0; y < up; ++y) {
+    for (int x = 0; x < across; ++x) {
+      const glm::vec2 at = 2.0f * (glm::vec2(x, y) + 0.5f) / glm::vec2(across, up) - 1.0f;
+      const glm::vec3 view(at.x * tan_y * aspect, at.y * tan_y, -1.0f);
+      rays.push_back({glm::vec3(camera.world_from_view[3]), 0.0f,
+                      glm::normalize(glm::mat3(camera.world_from_view) * view)});
+    }
+  }
+  return rays;
+}
+
 std::vector<SurfaceSample> sample_surfaces(const Scene& scene,
                                            std::span<const std::uint32_t> instances, int count) {
   // Sum up areas over the triangles of each mesh, and over instances

@@ -25,6 +25,9 @@ struct SurfaceSample {
 std::vector<SurfaceSample> sample_surfaces(const Scene& scene,
                                            std::span<const std::uint32_t> instances, int count);
 
+/// Rays of a coarse grid over a picture of this aspect, width over height, from the bottom row up.
+std::vector<Ray> frame_rays(const Camera& camera, float aspect, int across, int up);
+
 /// Rays in `count` directions that cover the sphere evenly, `reach` long [m].
 std::vector<Ray> rays_around(const glm::vec3& place_ws, int count, float reach = kInfiniteDistance);
 

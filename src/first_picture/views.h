@@ -12,7 +12,7 @@
 namespace lambent {
 
 /// Height of a standing person's eyes [m].
-constexpr float kEyeHeight = 1.6f;
+inline constexpr float kEyeHeight = 1.6f;
 
 /// The best view of the subject from outside that has all of it in the frame.
 Camera outside_view(const World& world, const Subject& subject, float vertical_fov, float aspect);
@@ -29,7 +29,8 @@ std::optional<Camera> street_view(const World& world, const SpaceSurvey& survey,
 
 /// The best view at eye height from the ground of a site, such as a garden, a camp or a landscape,
 /// of what stands there; none where `outside`, a view of all of it, shows more of that than of the
-/// ground, or where the site has neither lights nor a ground that is a sheet.
+/// ground, where the ground dwarfs the subject, or where the site has neither lamps nor a ground
+/// that is a sheet.
 std::optional<Camera> site_view(const World& world, const Subject& subject, const Site& site,
                                 const Camera& outside, float vertical_fov, float aspect);
 

@@ -204,15 +204,14 @@ LAMBENT_FN SeenShape seen_shape(uint shape, vec3 normal, vec3 to_viewer) {
   return seen;
 }
 
-// Least cosine to a viewer by which a coat's lobe is divided: smith_lambda() takes smaller ones for
-// it, too.
+// The cosine to which smith_lambda() clamps: a coat's lobe is divided by no smaller one.
 const float kLeastViewCosine = 1e-6f;
 
-/// The cosine of a light, as far as its light is reflected to the viewer: times pi times the BRDF,
-/// over the directional albedo towards the viewer. Over light from a uniform sky, this weight of
-/// the cosine has a mean of 1. `received`: the cosine for the base, see bumpy_cosine(). Coats are
-/// as rough as their bumps, have the cosine to their mean normal, and show nothing of a light below
-/// its horizon. `seen` is that of seen_shape() for this normal and viewer.
+/// Pi times the BRDF times a light's cosine, over the directional albedo towards the viewer. Over a
+/// uniform sky its mean is that of the cosine. `received`: the cosine for the base, see
+/// bumpy_cosine(), and for surfaces whose albedo_towards() answers. Other coats are as rough as
+/// their bumps: they have the cosine to their mean normal, and show no light below its horizon.
+/// `seen` is that of seen_shape() for this normal and viewer.
 LAMBENT_FN float reflected_cosine(SeenShape seen, vec3 normal, vec3 to_viewer, vec3 to_light,
                                   float received) {
   float n_dot_l = dot(normal, to_light);

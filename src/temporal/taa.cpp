@@ -55,7 +55,8 @@ void TaaSequence::advance(int width, int height, const FrameChange& change) {
             has_history ? 1u : 0u,
             deviations,
             change.relit ? 1u : 0u,
-            still_frames > 0 ? kStillHistoryFrames : kRestingHistoryFrames};
+            still_frames > 0 ? kStillHistoryFrames : kRestingHistoryFrames,
+            resting_frames_ > 0 ? 1u : 0u};
   begun_ = true;
 }
 

@@ -17,6 +17,7 @@ struct TaaFrame {
   float clip_deviations;
   uint relit;         ///< 1: lights, materials or the sky differ from the previous frame.
   float most_frames;  ///< Most frames that the history of pixels at rest counts for.
+  uint camera_rests;  ///< 1: the camera has not moved since the previous frame.
 };
 
 LAMBENT_DEVICE_ARRAY(TaaPixelArray, TaaPixel, 4)
@@ -24,12 +25,11 @@ LAMBENT_DEVICE_ARRAY(TaaPixelArray, TaaPixel, 4)
 /// All pixels of a frame, and their history.
 struct TaaArguments {
   TaaFrame frame;
+  uint stride;
   FloatArray picture;  ///< Radiance: three floats a pixel, the first of each `stride`.
   PixelMotionArray motion;
   TaaPixelArray history;
   TaaPixelArray result;
-  uint stride;
-  uint padding;
 };
 
 LAMBENT_END

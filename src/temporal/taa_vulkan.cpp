@@ -26,7 +26,7 @@ void TaaVulkan::reserve(const TaaFrame& frame) {
 void TaaVulkan::record(vulkan::Recorder& to, const TaaFrame& frame, FloatArray picture,
                        std::uint32_t stride, PixelMotionArray motion) {
   const TaaArguments arguments = {
-      frame, picture, motion, {history_.address()}, {result_.address()}, stride, 0u};
+      frame, stride, picture, motion, {history_.address()}, {result_.address()}};
   const auto pixels = static_cast<std::uint32_t>(frame.width * frame.height);
   to.run(kernels_.resolve, arguments, pixels);
   to.barrier();

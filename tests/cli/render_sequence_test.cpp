@@ -17,6 +17,9 @@
 
 #include "core/image/metrics.h"
 #include "lambent/image.h"
+#include "scenes/glb_writer.h"
+#include "support/box_scenes.h"
+#include "support/hand_made.h"
 #include "support/program.h"
 #include "support/temporary_directory.h"
 
@@ -118,6 +121,26 @@ TEST_F(RenderSequence, OfAFileIsThatOfTheBuiltInScene) {
   ASSERT_EQ(run_program("render atrium" + direct + directory.file("b.exr")).status, 0);
   const double ours = mean_of(directory.file("a.exr")), theirs = mean_of(directory.file("b.exr"));
   EXPECT_NEAR(ours / theirs, 1.0, 0.01);
+}
+
+// A garage whose door rises by 3 m in a second, seen from inside, in the sun that the file brings.
+TEST_F(RenderSequence, HasTheSkyThatAnOpenDoorShows) {
+  using test::box_mesh;
+  Scene scene = test::scene_of(
+      {box_mesh({-3, 0, -3}, {3, 3, -2.8f}), box_mesh({-3, 0, -3}, {-2.8f, 3, 3}),
+       box_mesh({2.8f, 0, -3}, {3, 3, 3}), box_mesh({-3, 2.8f, -3}, {3, 3, 3}),
+       box_mesh({-20, -1, -20}, {20, 0, 20}), box_mesh({-3.1f, -0.1f, 3}, {3.1f, 3, 3.2f})});
+  scene.lights.push_back(test::sun(glm::vec3(5.0f), {0, -1, -1}));
+  scene.cameras.push_back(look_at({0, 1.5f, -2.5f}, {0, 1.5f, 0}, 1.0f));
+  scenes::Track door;
+  door.index = 5;
+  door.keyframes = {{0.0f, {}, {1, 0, 0, 0}}, {1.0f, {0, 3, 0}, {1, 0, 0, 0}}};
+  ASSERT_TRUE(scenes::write_glb(scene, directory.file("a.glb"), {{"opens", {door}}}));
+  const std::string quick = "render " + directory.file("a.glb") + kQuick + "-o ";
+  const ProgramResult still = run_program(quick + directory.file("a.png"));
+  EXPECT_THAT(still.errors, HasSubstr("black sky")) << "the shut door shows no sky";
+  const ProgramResult opens = run_program(quick + directory.file("a.png") + " --frames 2 --fps 1");
+  EXPECT_THAT(opens.errors, HasSubstr("under a sky in proportion to its suns"));
 }
 
 // A lift that climbs 8 m in a second, in a shaft of 2 x 2 x 12 m with one open side on grounds of

@@ -308,8 +308,10 @@ TEST(FirstLight, IsWhatNeonTubesSendAtNight) {
   ASSERT_LT(light.emission_ratio, 0.01f);
   ASSERT_GT(light.lit_by_emission, 0.9f);
   EXPECT_EQ(choose_first_light(bright, camera), FirstLight::scene) << light.emission_ratio;
+  ASSERT_LT(measure_view_light(dim, sample_view(dim, camera)).emission_ratio, 0.003f);
   EXPECT_EQ(choose_first_light(dim, camera), FirstLight::scene);
   // Beside a single one, most of the walls would look black
+  ASSERT_LT(measure_view_light(dark, sample_view(dark, camera)).emission_ratio, 0.001f);
   EXPECT_EQ(choose_first_light(dark, camera), FirstLight::sun);
 }
 

@@ -2,6 +2,9 @@
 // First pictures of gardens, camps, landscapes, and houses in their grounds.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "first_picture/site.h"
 #include "lambent/first_picture.h"
 #include "raytracing/camera_rays.h"
@@ -87,9 +90,10 @@ TEST(SiteView, IsNotOfModelsAndCircuitBoards) {
     part.world_from_object = glm::mat4(glm::mat3(0.1f)) * part.world_from_object;
   }
   EXPECT_FALSE(first_view(World(model)).value().inside);
-  // A board has an underside, and what a lamp lights is no board
+  // A board has an underside, and what a lamp lights is no board; suns are exported with anything
   Scene board = test::scene_of({box_mesh({-30, -1, -30}, {30, 0, 30})});
   add_trees(board, 6.0f);
+  board.lights.push_back(test::sun(glm::vec3(5.0f), {0, -1, 0}));
   EXPECT_FALSE(first_view(World(board)).value().inside);
   board.lights.push_back(test::point_light(glm::vec3(100.0f), {1, 4, 1}));
   EXPECT_TRUE(first_view(World(board)).value().inside);
@@ -98,10 +102,50 @@ TEST(SiteView, IsNotOfModelsAndCircuitBoards) {
 TEST(SiteView, IsNotOfATownThatHidesItsGround) {
   Scene town = wide_ground();
   add_trees(town, 6.0f);
+  ASSERT_TRUE(first_view(World(town)).value().inside) << "trees do not";
   for (Instance& house : town.instances) {
     if (house.mesh != 0) house.world_from_object[0][0] = house.world_from_object[2][2] = 8.0f;
   }
   EXPECT_FALSE(first_view(World(town)).value().inside);
+}
+
+// What is wide and thin is no ground if something is below it.
+TEST(SiteView, StandsUnderCrownsThatAreOneMesh) {
+  Scene scene = wide_ground();
+  scene.lights.push_back(test::point_light(glm::vec3(100.0f), {1, 4, 1}));
+  add_camp(scene);
+  Mesh crowns;
+  for (int i = 0; i < 49; ++i) {
+    const glm::vec3 low(8.0f * static_cast<float>(i % 7 - 3) - 2.5f, 6.0f,
+                        8.0f * static_cast<float>(i / 7 - 3) - 2.5f);
+    const Mesh crown = box_mesh(low, low + glm::vec3(5, 3, 5));
+    const auto first = static_cast<std::uint32_t>(crowns.positions.size());
+    crowns.positions.insert(crowns.positions.end(), crown.positions.begin(), crown.positions.end());
+    crowns.normals.insert(crowns.normals.end(), crown.normals.begin(), crown.normals.end());
+    for (const glm::uvec3& t : crown.triangles) crowns.triangles.push_back(t + first);
+  }
+  test::add(scene, std::move(crowns));
+  const FirstView view = first_view(World(scene)).value();
+  EXPECT_LT(eye_of(view.camera).y, 5.0f + (view.inside ? 0.0f : 1e3f));
+  const World world(scene);
+  const auto site = find_site(world, find_subject(world));
+  ASSERT_TRUE(site.has_value());
+  EXPECT_TRUE(site->is_ground.front());
+  EXPECT_FALSE(site->is_ground.back());
+}
+
+TEST(SiteView, IsNotOfAModelOnItsPlinth) {
+  Scene model = wide_ground();
+  add_trees(model, 6.0f);
+  test::add(model, box_mesh({-30, -4, -30}, {30, -0.5f, 30}));
+  EXPECT_FALSE(first_view(World(model)).value().inside);
+}
+
+TEST(SiteView, IsNotOfAThingThatItsGroundDwarfs) {
+  const Scene scene = test::scene_of(
+      {test::quad({-200, 0, 200}, {400, 0, 0}, {0, 0, -400}, 0), box_mesh({-15, 1, -2}, {15, 4, 2}),
+       box_mesh({-3, 2, -14}, {3, 2.5f, 14}), box_mesh({12, 4, -0.5f}, {15, 9, 0.5f})});
+  EXPECT_FALSE(first_view(World(scene)).value().inside);
 }
 
 /// Adds a hall of 8 by 6 by 3 m with an open door, and shelves and boxes inside.

@@ -41,6 +41,11 @@ TEST(FirstView, TellsHowFarAwayIsWhatItShows) {
     const glm::vec3 target = eye - view.distance * glm::vec3(view.camera.world_from_view[2]);
     EXPECT_LT(glm::distance(target, low + 0.5f * size), size) << size;
   }
+  // A frame, in whose middle nothing is
+  const Scene frame = test::scene_of(
+      {test::box_mesh({-50, -50, 0}, {50, -48, 2}), test::box_mesh({-50, 48, 0}, {50, 50, 2}),
+       test::box_mesh({-50, -50, 0}, {-48, 50, 2}), test::box_mesh({48, -50, 0}, {50, 50, 2})});
+  EXPECT_GT(first_view(World(frame), {}).value().distance, 50.0f);
 }
 
 }  // namespace

@@ -86,5 +86,29 @@ TEST(ThinThings, OutliveLightThatFlickers) {
   EXPECT_GT(least, 1.2f * kWall);
 }
 
+// The sky has no motion before a camera that walks.
+TEST(ThinThings, LeaveNoLinesInTheSkyThatTheyPass) {
+  constexpr float kSky = 1.0f, kDark = 0.1f;
+  const PixelMotion sky{glm::vec2(0.0f), infinity(), infinity(), 1u};
+  const PixelMotion passing{glm::vec2(2.0f, 0.0f), kPostDepth, kPostDepth, 1u};
+  TaaSequence sequence;
+  TemporalAntialiasing antialiasing;
+  for (int i = 0; i < 12; ++i) {
+    sequence.advance(kSide, kSide, {.moved = true, .edited = true});
+    Image picture(kSide, kSide, 3);
+    std::fill(picture.pixels.begin(), picture.pixels.end(), kSky);
+    std::vector<PixelMotion> motion(kSide * kSide, sky);
+    const int column = kSide + 2 - 2 * i;
+    for (int y = 0; y < kSide && column >= 0 && column < kSide; ++y) {
+      std::fill_n(picture.at(column, y), 3, kDark);
+      motion[y * kSide + column] = passing;
+    }
+    antialiasing.resolve(sequence.frame(), motion, picture);
+    for (int x = std::max(column + 4, 0); x < kSide; ++x) {
+      EXPECT_NEAR(picture.at(x, kSide / 2)[1], kSky, 0.02f) << i << ", " << x;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lambent::taa_thin_test
