@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "first_picture/site.h"
+#include "first_picture/survey.h"
 #include "lambent/first_picture.h"
-#include "raytracing/camera_rays.h"
 #include "raytracing/trace_rays.h"
 #include "support/box_scenes.h"
 #include "support/hand_made.h"
@@ -56,13 +56,8 @@ std::size_t add_camp(Scene& scene) {
 
 /// How many of the instances from `first` on a camera sees.
 std::size_t count_seen(const World& world, const Camera& camera, std::size_t first) {
-  std::vector<Ray> rays;
-  for (int i = 0; i < 128 * 72; ++i) {
-    rays.push_back(camera_ray(camera, 128, 72, static_cast<float>(i % 128) + 0.5f,
-                              static_cast<float>(i / 128) + 0.5f));
-  }
   std::vector<bool> seen(world.scene().instances.size());
-  for (const Hit& hit : trace(world, rays)) {
+  for (const Hit& hit : trace(world, frame_rays(camera, 16.0f / 9.0f, 128, 72))) {
     if (!hit.missed()) seen[hit.instance] = true;
   }
   return static_cast<std::size_t>(
