@@ -186,8 +186,7 @@ Mesh valley() {
   return mesh;
 }
 
-// Level rays end at the hills, so that places in the air above a hut count as enclosed.
-TEST(SiteView, IsNotInTheAirAmongHills) {
+TEST(SiteView, StandsInTheValleyAmongHills) {
   Scene scene = test::scene_of({valley()});
   add_trees(scene, 16.0f);
   const std::size_t hut = scene.instances.size();
