@@ -17,7 +17,8 @@ class World;
 struct FieldGrid;
 
 struct FirstViewSettings {
-  /// Full vertical angle of the view [rad], 0 to pi; none: 45 degrees for objects, 60 for rooms.
+  /// Full vertical angle of the view [rad], 0 to pi; none: 45 degrees for objects, 60 for rooms,
+  /// streets and sites.
   std::optional<float> vertical_fov;
   float aspect = 16.0f / 9.0f;  ///< Width over height of the picture, > 0.
 };
@@ -25,8 +26,10 @@ struct FirstViewSettings {
 /// A camera that shows a scene.
 struct FirstView {
   Camera camera;
-  bool inside = false;  ///< The camera is in a room, in a street or on a site, not in front of all.
-  float distance = 1.0f;  ///< To what is in the middle of the picture, > 0 [m].
+  /// The camera is in a room, in a street or on the ground of a site; else it shows all from
+  /// outside.
+  bool inside = false;
+  float distance = 1.0f;  ///< Median distance to what the middle of the picture shows, > 0 [m].
 };
 
 /// Finds a camera by what it would show: a three-quarter view of the whole object from outside, or,

@@ -44,21 +44,11 @@ std::optional<Camera> room_view(const World& world, const Subject& subject,
   return inside_view(world, survey, subject.bounds, vertical_fov, aspect);
 }
 
-/// Keeps only the enclosed places below a roof: among hills, all that is outdoors is enclosed, too.
-void keep_below_roofs(SpaceSurvey& survey) {
-  const auto before = static_cast<float>(survey.enclosed.size());
-  const auto is_open = [](const OpenPlace& place) { return place.open_above; };
-  std::erase_if(survey.enclosed, is_open);
-  survey.sheltered = survey.enclosed;
-  if (before > 0.0f) survey.enclosed_share *= static_cast<float>(survey.enclosed.size()) / before;
-}
-
 /// The best view inside the heart of a site, if that is a room; else one from the site's ground.
 std::optional<Camera> view_on_site(const World& world, const Subject& subject, const Site& site,
                                    const Camera& outside, float vertical_fov, float aspect) {
   if (const auto heart = find_heart(world, subject, site)) {
-    SpaceSurvey survey = survey_space(world, heart->bounds);
-    keep_below_roofs(survey);
+    const SpaceSurvey survey = survey_space(world, heart->bounds, SurveyedPlaces::below_roofs);
     const auto inside = room_view(world, *heart, survey, vertical_fov, aspect);
     if (inside) return inside;
   }

@@ -129,23 +129,7 @@ std::optional<Ray> ray_to_any_light(const World& world, const glm::vec3& from,
 }  // namespace
 
 SeenView sample_view(const World& world, const Camera& camera) {
-  const float tan_y = std::tan(0.5f * camera.vertical_fov);
-  const float half_up = camera.orthographic ? 0.5f * camera.vertical_extent : tan_y;
-  const glm::mat3 axes(camera.world_from_view);
-  const glm::vec3 eye(camera.world_from_view[3]);
-  std::vector<Ray> rays;
-  for (int y = 0; y < kUp; ++y) {
-    for (int x = 0; x < kAcross; ++x) {
-      const glm::vec2 at(
-          (2.0f * (static_cast<float>(x) + 0.5f) / kAcross - 1.0f) * half_up * kAspect,
-          (2.0f * (static_cast<float>(y) + 0.5f) / kUp - 1.0f) * half_up);
-      if (camera.orthographic) {
-        rays.push_back({eye + axes * glm::vec3(at, 0.0f), 0.0f, -axes[2]});
-      } else {
-        rays.push_back({eye, 0.0f, glm::normalize(axes * glm::vec3(at, -1.0f))});
-      }
-    }
-  }
+  const std::vector<Ray> rays = frame_rays(camera, kAspect, kAcross, kUp);
   const std::vector<Hit> hits = trace(world, rays);
   SeenView view;
   for (std::size_t i = 0; i < hits.size(); ++i) {

@@ -85,14 +85,20 @@ std::vector<Ray> rays_around(const glm::vec3& place_ws, int count, float reach) 
 }
 
 std::vector<Ray> frame_rays(const Camera& camera, float aspect, int across, int up) {
+  const float half_up =
+      camera.orthographic ? 0.5f * camera.vertical_extent : std::tan(0.5f * camera.vertical_fov);
+  const glm::mat3 axes(camera.world_from_view);
+  const glm::vec3 eye(camera.world_from_view[3]);
   std::vector<Ray> rays;
-  const float tan_y = std::tan(0.5f * camera.vertical_fov);
   for (int y = 0; y < up; ++y) {
     for (int x = 0; x < across; ++x) {
-      const glm::vec2 at = 2.0f * (glm::vec2(x, y) + 0.5f) / glm::vec2(across, up) - 1.0f;
-      const glm::vec3 view(at.x * tan_y * aspect, at.y * tan_y, -1.0f);
-      rays.push_back({glm::vec3(camera.world_from_view[3]), 0.0f,
-                      glm::normalize(glm::mat3(camera.world_from_view) * view)});
+      const glm::vec2 place = 2.0f * (glm::vec2(x, y) + 0.5f) / glm::vec2(across, up) - 1.0f;
+      const glm::vec2 at(place.x * half_up * aspect, place.y * half_up);
+      if (camera.orthographic) {
+        rays.push_back({eye + axes * glm::vec3(at, 0.0f), 0.0f, -axes[2]});
+      } else {
+        rays.push_back({eye, 0.0f, glm::normalize(axes * glm::vec3(at, -1.0f))});
+      }
     }
   }
   return rays;
@@ -153,7 +159,7 @@ bool leads_to_sky(const World& world, const Ray& ray) {
   return std::max({share.r, share.g, share.b}) >= kMinClearTransmittance;
 }
 
-SpaceSurvey survey_space(const World& world, const Bounds& bounds) {
+SpaceSurvey survey_space(const World& world, const Bounds& bounds, SurveyedPlaces which) {
   // Trace rays around, up and down from random places
   constexpr int kRays = kWaysAround + 2;
   std::vector<Ray> rays;
@@ -189,7 +195,9 @@ SpaceSurvey survey_space(const World& world, const Bounds& bounds) {
     });
     const auto closed =
         std::count_if(around, around + kWaysAround, [](const Hit& h) { return !h.missed(); });
-    if (closed < kMinShelteredWays || down.missed()) continue;
+    const bool indoors = which == SurveyedPlaces::below_roofs;
+    if (closed < (indoors ? kMinClosedWays : kMinShelteredWays) || down.missed()) continue;
+    if (indoors && up.missed()) continue;
     const auto one_sided = static_cast<float>(met - two_sided);
     if (static_cast<float>(fronts) < kMinFrontShare * one_sided) continue;
     const glm::vec3& place = rays[static_cast<std::size_t>(i) * kRays].origin;

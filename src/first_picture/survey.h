@@ -60,7 +60,14 @@ struct SpaceSurvey {
   /// Share of two-sided surfaces among those around enclosed places, whose winding is meaningless.
   float two_sided_share = 0.0f;
 };
-SpaceSurvey survey_space(const World& world, const Bounds& bounds);
+
+/// Which places a survey finds.
+enum class SurveyedPlaces : std::uint8_t {
+  all,
+  below_roofs,  ///< Enclosed ones with a surface above: among hills, all outdoors is enclosed, too.
+};
+SpaceSurvey survey_space(const World& world, const Bounds& bounds,
+                         SurveyedPlaces which = SurveyedPlaces::all);
 
 /// Length of a box's diagonal [m].
 inline float diagonal(const Bounds& bounds) {

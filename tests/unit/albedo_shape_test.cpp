@@ -168,7 +168,7 @@ TEST(ReflectedCosine, IsFiniteForCoatsThatReflectAlmostNothing) {
 }
 
 // Bumps receive light from the horizon of their mean normal, where a strip of light may lie on the
-// floor that it lights. A single such sample made the field of a hangar burst.
+// floor that it lights. A single such sample made the field of a hangar diverge.
 TEST(ReflectedCosine, OfCoatsEndsAtTheHorizon) {
   const Reflectance metal = {vec3(0.0f), 0.1f, vec3(0.1f), 1.0f, no_layers(), 1.0f};
   const Reflectance plastic = {vec3(0.5f), 0.1f, vec3(0.04f), 1.0f, no_layers(), 1.0f};
