@@ -53,6 +53,11 @@ struct NoisyLight {
   /// Neighbours with lower levels count less in proportion. Empty: it was not divided. Not together
   /// with `base`. With lobes, both must be empty.
   std::span<const float> levels = {};
+  /// Variance of the luminance of light that was averaged over pictures of one sample a pixel, from
+  /// how much these differ: about as noisy as the light. Light is filtered as without a variance,
+  /// but its noise is not estimated from neighbours: averages of reprojected pictures have most of
+  /// their noise in common with those. Not together with `variance`. Empty: it is unknown.
+  std::span<const float> history_variance = {};
 };
 
 /// How light is filtered. The defaults are those for indirect light.

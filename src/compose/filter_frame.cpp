@@ -121,7 +121,11 @@ void filter_pixels(const FrameRequest& request, FilteredPixels& pixels) {
   if (!pixels.gathered.empty()) {
     view.normals_ws = pixels.geometric_normals_ws;
     [[maybe_unused]] const Expected<void> done =
-        pixels.denoiser.filter(view, {pixels.gathered, pixels.looked_up, pixels.gathered_variance},
+        pixels.denoiser.filter(view,
+                               {.light = pixels.gathered,
+                                .base = pixels.looked_up,
+                                .variance = pixels.gathered_variance,
+                                .history_variance = pixels.gathered_history_variance},
                                {}, pixels.filtered_gathered);
     assert(done);  // sizes are the view's
     add_excess(view, pixels.excess, pixels.filtered_gathered, geometric_denoising(), pixels,
@@ -129,9 +133,13 @@ void filter_pixels(const FrameRequest& request, FilteredPixels& pixels) {
   }
   if (!pixels.emitters.empty()) {
     view.normals_ws = pixels.normals_ws;
-    [[maybe_unused]] const Expected<void> done = pixels.denoiser.filter(
-        view, {pixels.emitters, {}, pixels.emitter_variance, pixels.emitter_levels},
-        emitter_denoising(), pixels.filtered_emitters);
+    [[maybe_unused]] const Expected<void> done =
+        pixels.denoiser.filter(view,
+                               {.light = pixels.emitters,
+                                .variance = pixels.emitter_variance,
+                                .levels = pixels.emitter_levels,
+                                .history_variance = pixels.emitter_history_variance},
+                               emitter_denoising(), pixels.filtered_emitters);
     assert(done);
   }
   filter_coats(view, pixels);

@@ -36,6 +36,8 @@ struct FilteredPixels {
   // Light to be filtered, divided by the surfaces' albedo; the excess is that of gathered light
   std::vector<glm::vec3> gathered, excess, looked_up, emitters;
   std::vector<float> gathered_variance, emitter_variance;
+  /// See NoisyLight::history_variance; empty where samples measure variances, or nothing does.
+  std::vector<float> gathered_history_variance, emitter_history_variance;
   /// Hit::sample_weight where the pixel shows indirect light, else 0.
   std::vector<float> received_weight;
   // Factors from filtered light to the camera's radiance, including the fog's transmittance

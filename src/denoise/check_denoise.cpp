@@ -76,7 +76,8 @@ DenoiseSettings firefly_denoising(DenoiseSettings settings) {
 }
 
 std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has_base,
-                                       bool measured, bool has_levels, bool has_lobes) {
+                                       NoiseFrom noise_from, bool has_levels, bool has_lobes) {
+  const bool measured = noise_from == NoiseFrom::samples;
   // Light over its level has few rare bright rays, and its samples measure its variance. So the
   // first pass averages variances alone, and not even the smallest shadows are blurred (Schied et
   // al. 2017, sec. 4.4: variances are filtered before they are used)
@@ -99,7 +100,7 @@ std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has
     pass.geometric = first && !(tells_edges && i > 0) ? 1 : 0;
     // Passes that compare light keep that of a strip from the surface beside it by its brightness
     pass.checks_steps = !measured && settings.geometric_passes == settings.passes ? 1 : 0;
-    pass.ends_estimate = !measured && i == settings.geometric_passes - 1 ? 1 : 0;
+    pass.ends_estimate = noise_from == NoiseFrom::neighbours && i == settings.geometric_passes - 1;
     pass.only_spread = knows_noise && i == 0 ? 1 : 0;
     pass.harmonic = measured && !(first && tells_edges) ? 1 : 0;
     pass.has_base = has_base ? 1 : 0;

@@ -2,6 +2,7 @@
 // The passes of the filter for given settings, on every backend.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "denoise/atrous_pass.h"
@@ -9,9 +10,12 @@
 
 namespace lambent {
 
+/// What tells the noise of light: the pixels around it, earlier pictures, or a pixel's samples.
+enum class NoiseFrom : std::uint8_t { neighbours, history, samples };
+
 /// The passes, in order.
 std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has_base,
-                                       bool measured, bool has_levels, bool has_lobes);
+                                       NoiseFrom noise_from, bool has_levels, bool has_lobes);
 
 /// Most passes that spread fireflies, over 15 x 15 pixels. With five, small spots of light that few
 /// samples find were spread over walls.

@@ -30,9 +30,10 @@ void DenoiserVulkan::record_part(vulkan::Recorder& to, const DenoiseViewOnDevice
                                  const DenoiseSettings& settings, Vec3Array filtered,
                                  bool adds) const {
   const std::uint32_t count = view.width * view.height;
-  const bool has_base = light.base.address != 0,
-             measured = light.variance.address != 0 && part != kFirefliesAlone,
-             has_levels = light.levels.address != 0, has_lobes = view.lobes.address != 0;
+  const bool has_base = light.base.address != 0, has_levels = light.levels.address != 0,
+             has_lobes = view.lobes.address != 0;
+  const bool measured = light.variance.address != 0 && part != kFirefliesAlone;
+  const NoiseFrom noise_from = measured ? NoiseFrom::samples : NoiseFrom::neighbours;
   DenoiseArray from{light_[0].address()}, into{light_[1].address()};
   const DenoiseStartArguments start = {
       light.light, light.base, light.variance,     from,
@@ -40,7 +41,8 @@ void DenoiserVulkan::record_part(vulkan::Recorder& to, const DenoiseViewOnDevice
       part,        0u};
   to.run(kernels_.start, start, count);
   to.barrier();
-  for (const AtrousPass& by : denoise_passes(settings, has_base, measured, has_levels, has_lobes)) {
+  for (const AtrousPass& by :
+       denoise_passes(settings, has_base, noise_from, has_levels, has_lobes)) {
     const DenoisePassArguments pass = {
         view.positions_ws, view.normals_ws, view.depths, light.levels, view.lobes, from, into, by,
         view.width,        view.height,     0u};

@@ -158,9 +158,11 @@ float fetch_luminance(const NoisyPixel& pixel, int x, int y) {
 /// kFirefliesAlone. Returns whether there are fireflies, of a part.
 bool load_light(const DenoiseView& view, const NoisyLight& light, uint part, PlanePicture& to) {
   const bool has_base = !light.base.empty(), measured = !light.variance.empty();
+  const std::span<const float> variances = measured ? light.variance : light.history_variance;
+  const bool known = !variances.empty() && part != kFirefliesAlone;
   std::atomic<bool> any = false;
   fill_planes(view, kDenoisePlanes, to, [&](const Planes& row, int x, std::size_t i) {
-    const float variance = measured ? finite_or_dark(light.variance[i]) : 0.0f;
+    const float variance = variances.empty() ? 0.0f : finite_or_dark(variances[i]);
     float share = 1.0f;
     if (part != kWholeLight) {
       const int y = static_cast<int>(i / static_cast<std::size_t>(view.width));
@@ -171,12 +173,16 @@ bool load_light(const DenoiseView& view, const NoisyLight& light, uint part, Pla
     const vec3 noisy = share * finite_or_dark(light.light[i]);
     const vec3 base = has_base ? finite_or_dark(light.base[i]) : vec3(0.0f);
     store_vector(row, kLightPlane, x, noisy);
-    row.at(kSpreadPlane)[x] = measured && part != kFirefliesAlone ? share * share * variance
-                                                                  : unmeasured_spread(noisy, base);
+    row.at(kSpreadPlane)[x] = known ? share * share * variance : unmeasured_spread(noisy, base);
     row.at(kSharePlane)[x] = 1.0f;
     if (has_base) store_vector(row, kBasePlane, x, base);
   });
   return any;
+}
+
+NoiseFrom noise_from(const NoisyLight& light) {
+  if (!light.variance.empty()) return NoiseFrom::samples;
+  return light.history_variance.empty() ? NoiseFrom::neighbours : NoiseFrom::history;
 }
 
 /// Stores the filtered light with the detail of its base, if any, or adds it to what is there.
@@ -214,7 +220,9 @@ Expected<void> check(const DenoiseView& view, const NoisyLight& light,
         Span{"viewers of lobes", view.lobes.to_viewer_ws.size(), !lobes},
         Span{"distances of lobes", view.lobes.inverse_distances.size(), !lobes},
         Span{"light", light.light.size(), false}, Span{"base", light.base.size(), true},
-        Span{"variance", light.variance.size(), true}, Span{"levels", light.levels.size(), true},
+        Span{"variance", light.variance.size(), true},
+        Span{"variance of the history", light.history_variance.size(), true},
+        Span{"levels", light.levels.size(), true},
         Span{"filtered light", filtered.size(), false}}) {
     if (span.size == pixels || (span.may_be_empty && span.size == 0)) continue;
     return fail(
@@ -223,6 +231,9 @@ Expected<void> check(const DenoiseView& view, const NoisyLight& light,
   }
   if (lobes && (!light.base.empty() || !light.levels.empty())) {
     return fail("", "noisy light", "of lobes has a base or levels");
+  }
+  if (!light.variance.empty() && !light.history_variance.empty()) {
+    return fail("", "noisy light", "has variances of samples and of a history");
   }
   if (!light.base.empty() && !light.levels.empty()) {
     return fail("", "noisy light", "has both a base and levels");
@@ -274,16 +285,16 @@ Expected<void> Denoiser::filter(const DenoiseView& view, const NoisyLight& light
     s.lobes.mirror(kDenoiseGuard);
   }
   s.light[1].shape(view.width, view.height, kDenoisePlanes);
-  const bool has_base = !light.base.empty(), measured = !light.variance.empty(),
-             has_levels = !light.levels.empty();
-  const bool splits = measured && has_levels;
+  const bool has_base = !light.base.empty(), has_levels = !light.levels.empty();
+  const bool splits = has_levels && !light.variance.empty();
   const bool fireflies =
       load_light(view, light, splits ? kWithoutFireflies : kWholeLight, s.light[0]);
-  int at = s.run_all(denoise_passes(settings, has_base, measured, has_levels, has_lobes(view)));
+  int at =
+      s.run_all(denoise_passes(settings, has_base, noise_from(light), has_levels, has_lobes(view)));
   store_light(view, s.light[at], light.base, /*adds=*/false, filtered);
   if (!fireflies) return {};
   load_light(view, light, kFirefliesAlone, s.light[0]);
-  at = s.run_all(denoise_passes(firefly_denoising(settings), has_base, /*measured=*/false,
+  at = s.run_all(denoise_passes(firefly_denoising(settings), has_base, NoiseFrom::neighbours,
                                 has_levels, has_lobes(view)));
   store_light(view, s.light[at], light.base, /*adds=*/true, filtered);
   return {};

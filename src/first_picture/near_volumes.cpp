@@ -13,6 +13,7 @@
 #include "lambent/field.h"
 #include "lambent/first_picture.h"
 #include "lambent/world.h"
+#include "raytracing/boxes.h"
 #include "raytracing/trace_rays.h"
 
 namespace lambent {
@@ -157,7 +158,8 @@ std::optional<Bounds> near_box(const World& world, const Camera& camera, const F
 std::vector<ProbeVolume> near_volumes(std::span<const Bounds> boxes, const FieldGrid& grid) {
   Bounds box;
   for (const Bounds& part : boxes) box.add(part);
-  if (boxes.empty()) return {};
+  const Bounds whole{grid.origin, grid.origin + grid.spacing * glm::vec3(grid.count - 1)};
+  if (boxes.empty() || !overlap(box, whole)) return {};
   const std::optional<ProbeVolume> finest = finest_volume(box, boxes);
   if (!finest) return {};
   const glm::vec3 cells(finest->probe_count - 1);
@@ -170,7 +172,6 @@ std::vector<ProbeVolume> near_volumes(std::span<const Bounds> boxes, const Field
   // Between its spacing and that of the grid
   std::vector<ProbeVolume> volumes = {*finest};
   const float steps = std::ceil(std::log(ratio) / std::log(kSpacingStep));
-  const Bounds whole{grid.origin, grid.origin + grid.spacing * glm::vec3(grid.count - 1)};
   for (float step = 1.0f; step < steps; ++step) {
     const glm::vec3 half = 0.5f * finest->size * std::pow(ratio, step / steps);
     const Bounds around{glm::max(finest->centre - half, glm::min(box.min, whole.min)),

@@ -7,6 +7,7 @@
 
 #include "first_picture/subject.h"
 #include "lambent/world.h"
+#include "raytracing/boxes.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/solid_sides/find_solid_sides.h"
 #include "raytracing/world_access.h"
@@ -127,12 +128,16 @@ Bounds open_bounds(const World& world, std::optional<glm::vec3> viewer_ws) {
   const bool room = is_room(world, subject);
   const SolidSides sides = find_solid_sides(world, {});
   const glm::vec3 viewer = viewer_ws.value_or(0.5f * (bounds.min + bounds.max));
+  const bool within = viewer_ws && contains(bounds, viewer);
   Bounds open = bounds;
   for (int axis = 0; axis < 3; ++axis) {
-    open.min[axis] += side_inset(world, sides, room, bounds, axis, false,
-                                 /*viewed=*/viewer[axis] < bounds.min[axis]);
-    open.max[axis] -= side_inset(world, sides, room, bounds, axis, true,
-                                 /*viewed=*/viewer[axis] > bounds.max[axis]);
+    const float lower = side_inset(world, sides, room, bounds, axis, false,
+                                   /*viewed=*/viewer[axis] < bounds.min[axis]);
+    const float upper = side_inset(world, sides, room, bounds, axis, true,
+                                   /*viewed=*/viewer[axis] > bounds.max[axis]);
+    // What is behind the viewer is no wall: a ground, where something far below it was forgotten
+    if (!within || open.min[axis] + lower <= viewer[axis]) open.min[axis] += lower;
+    if (!within || open.max[axis] - upper >= viewer[axis]) open.max[axis] -= upper;
   }
   return open;
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -28,21 +29,22 @@ struct Wall {
   std::size_t at(int x, int y) const { return static_cast<std::size_t>(y * width + x); }
   DenoiseView view() const { return {width, height, positions, normals, depths}; }
   /// Gives each pixel light(x, y, random number).
-  void set_light(const std::function<vec3(int, int, float)>& lit) {
-    RandomStream random = make_random_stream(1, 2, 3);
+  void set_light(const std::function<vec3(int, int, float)>& lit, std::uint32_t seed = 3) {
+    RandomStream random = make_random_stream(1, 2, seed);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) light[at(x, y)] = lit(x, y, next_uniform(random));
     }
   }
   std::vector<vec3> filtered(const DenoiseSettings& settings = {}) const {
     std::vector<vec3> result(light.size());
-    EXPECT_TRUE(Denoiser().filter(view(), {light, base, variance, levels}, settings, result));
+    const NoisyLight noisy{light, base, variance, levels, history_variance};
+    EXPECT_TRUE(Denoiser().filter(view(), noisy, settings, result));
     return result;
   }
 
   int width, height;
   std::vector<vec3> positions, normals, light, base;
-  std::vector<float> depths, variance, levels;
+  std::vector<float> depths, variance, levels, history_variance;
 };
 
 // One in eight rays brings light: as noisy as a small window.

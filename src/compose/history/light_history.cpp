@@ -10,44 +10,61 @@
 namespace lambent {
 namespace {
 
+/// The largest numbers of frames over which light of a pixel may be averaged.
+struct MostFrames {
+  float of_emitters, of_gathers;
+};
+
 /// Averages one kind of light of a pixel with the history's.
 template <class T>
 void average(const std::vector<T>& before, const HistoryTaps& taps, float frames, T& now) {
   if (frames > 1.0f) now = mix(weighted_sum(before, taps), now, 1.0f / frames);
 }
-void average_variance(const std::vector<float>& before, const HistoryTaps& taps, float frames,
-                      float& now) {
-  if (frames > 1.0f) now = averaged_variance(weighted_sum(before, taps), now, frames);
+
+/// Luminance of a pixel's light less that of the history's, which is 0 where there is none.
+float off_average(const std::vector<vec3>& before, const HistoryTaps& taps, const vec3& now) {
+  return luminance(now - weighted_sum(before, taps));
 }
 
 /// Averages what a pixel gathers over at most `most` frames, over fewer where its lookup has
 /// changed. Excess is averaged over many frames, and starts anew once lights, materials or the sky
 /// have changed (`relit`). Excess of what moves is shown as it is: where the field lags behind it,
 /// most rays bring more than their lookups.
-void average_gathered(const LightHistory& last, const HistoryTaps& taps, float most, bool relit,
-                      bool moves, std::size_t i, FilteredPixels& pixels, LightHistory& next) {
+void average_gathered(const LightHistory& last, const HistoryTaps& taps, const MostFrames& most,
+                      bool relit, bool moves, std::size_t i, FilteredPixels& pixels,
+                      LightHistory& next) {
   vec3& difference = next.differences[i] = pixels.gathered[i] - pixels.looked_up[i];
   float& looked_up = next.looked_up[i] = luminance(pixels.looked_up[i]);
   float& frames = next.gathered_frames[i] = 1.0f;
   if (is_history(taps)) {
     const float kept = kept_by_lookup(weighted_sum(last.looked_up, taps), looked_up);
-    frames = averaged_frames(kept * weighted_sum(last.gathered_frames, taps), most);
+    frames = averaged_frames(kept * weighted_sum(last.gathered_frames, taps), most.of_gathers);
   }
+  const float off = off_average(last.differences, taps, difference);
   average(last.differences, taps, frames, difference);
   average(last.looked_up, taps, frames, looked_up);
   const vec3 excess = relit ? vec3(0.0f) : weighted_sum(last.excess, taps);
   next.excess[i] = averaged_excess(excess, pixels.excess[i]);
   if (!moves) pixels.excess[i] = next.excess[i];
   pixels.gathered[i] = pixels.looked_up[i] + difference;
-  if (pixels.gathered_variance.empty()) return;
-  average_variance(last.gathered_variance, taps, frames, pixels.gathered_variance[i]);
-  next.gathered_variance[i] = pixels.gathered_variance[i];
+  average_noise(last.gathered_noise, {i, taps, off, frames},
+                {pixels.gathered_variance, pixels.gathered_history_variance}, next.gathered_noise);
 }
 
-/// The largest numbers of frames over which light of a pixel may be averaged.
-struct MostFrames {
-  float of_emitters, of_gathers;
-};
+void average_emitters(const LightHistory& last, const HistoryTaps& taps, const MostFrames& most,
+                      std::size_t i, FilteredPixels& pixels, LightHistory& next) {
+  vec3& light = pixels.emitters[i];
+  float& frames = next.frames[i] = 1.0f;
+  if (is_history(taps)) {
+    frames = averaged_frames(weighted_sum(last.frames, taps), most.of_emitters);
+  }
+  const float off = off_average(last.emitters, taps, light);
+  average(last.emitters, taps, frames, light);
+  next.emitters[i] = light;
+  average_noise(last.emitter_noise, {i, taps, off, frames},
+                {pixels.emitter_variance, pixels.emitter_history_variance}, next.emitter_noise);
+}
+
 MostFrames most_frames(const FrameAveraging& by, const ChangedLight* changed,
                        const FilteredPixels& pixels, std::size_t i) {
   MostFrames most{by.most_frames, by.most_frames};
@@ -68,8 +85,8 @@ void shape(const FilteredPixels& pixels, LightHistory& history) {
   history.gathered_frames.resize(pixels.gathered.size());
   history.excess.resize(pixels.excess.size());
   history.emitters.resize(pixels.emitters.size());
-  history.gathered_variance.resize(pixels.gathered_variance.size());
-  history.emitter_variance.resize(pixels.emitter_variance.size());
+  history.gathered_noise.resize(pixels.gathered.size(), !pixels.gathered_variance.empty());
+  history.emitter_noise.resize(pixels.emitters.size(), !pixels.emitter_variance.empty());
   history.frames.resize(pixels.depths.size());
 }
 
@@ -79,8 +96,8 @@ bool has_same_light(const LightHistory& last, const FilteredPixels& pixels) {
          last.differences.size() == pixels.gathered.size() &&
          last.excess.size() == pixels.excess.size() &&
          last.emitters.size() == pixels.emitters.size() &&
-         last.gathered_variance.size() == pixels.gathered_variance.size() &&
-         last.emitter_variance.size() == pixels.emitter_variance.size();
+         last.gathered_noise.measured.size() == pixels.gathered_variance.size() &&
+         last.emitter_noise.measured.size() == pixels.emitter_variance.size();
 }
 
 /// The surfaces of the previous frame; empty where its light does not continue.
@@ -130,6 +147,10 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
       (request.light_continues || changed != nullptr) && has_same_light(last, pixels);
   const CameraRecord& camera = by.views.now;
   shape(pixels, next);
+  // Frames that are lit otherwise differ from their averages by more than noise
+  const bool tells_noise = continues && !relit;
+  pixels.gathered_history_variance.resize(tells_noise ? next.gathered_noise.frames.size() : 0);
+  pixels.emitter_history_variance.resize(tells_noise ? next.emitter_noise.frames.size() : 0);
   parallel_chunks(pixels.depths.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     SurfacesBefore before{surfaces_before(last, continues)};
     for (std::size_t i = begin; i < end; ++i) {
@@ -150,22 +171,11 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
             normal_ws);
       }
       const MostFrames most = most_frames(by, changed, pixels, i);
-      const float frames = is_history(taps)
-                               ? averaged_frames(weighted_sum(last.frames, taps), most.of_emitters)
-                               : 1.0f;
-      next.frames[i] = frames;
       if (!pixels.gathered.empty()) {
         const bool moves = by.moved != nullptr && by.moved->contain(pixels.positions_ws[i]);
-        average_gathered(last, taps, most.of_gathers, relit, moves, i, pixels, next);
+        average_gathered(last, taps, most, relit, moves, i, pixels, next);
       }
-      if (!pixels.emitters.empty()) {
-        average(last.emitters, taps, frames, pixels.emitters[i]);
-        next.emitters[i] = pixels.emitters[i];
-      }
-      if (!pixels.emitter_variance.empty()) {
-        average_variance(last.emitter_variance, taps, frames, pixels.emitter_variance[i]);
-        next.emitter_variance[i] = pixels.emitter_variance[i];
-      }
+      if (!pixels.emitters.empty()) average_emitters(last, taps, most, i, pixels, next);
     }
   });
   average_reflections(by, last, continues && !relit, pixels, next);

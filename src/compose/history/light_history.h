@@ -7,6 +7,7 @@
 
 #include "compose/filter_frame.h"
 #include "compose/history/lobe_history.h"
+#include "compose/history/noise_history.h"
 
 namespace lambent {
 
@@ -20,7 +21,7 @@ struct LightHistory {
   std::vector<glm::vec3> differences;  ///< Gathered less looked-up light, averaged.
   std::vector<glm::vec3> excess, emitters;
   std::vector<float> looked_up;  ///< Luminance of the lookups [W/m^2], averaged.
-  std::vector<float> gathered_variance, emitter_variance;
+  NoiseHistory gathered_noise, emitter_noise;
   std::vector<float> frames;           ///< Number of frames in a pixel's average of emitters.
   std::vector<float> gathered_frames;  ///< Number of frames in its average of gathered light.
   LobeHistory coats, clearcoats, highlights;
