@@ -78,6 +78,9 @@ constexpr float kMaxSky = 0.1f;
 // of surfaces.
 constexpr float kDepthWeight = 2.0f, kDetailWeight = 0.8f, kLitWeight = 0.6f, kNearWeight = 1.5f,
                 kSkyWeight = 1.5f, kBackWeight = 0.8f;
+// Where lights reach less than this share of every view's rays, they hardly count: single rays
+// decide.
+constexpr float kLeastMostLit = 0.1f;
 // A view with less depth than this share of the diagonal, or with more backs, is rejected.
 constexpr float kMinDepth = 0.06f, kMaxBacks = 0.6f;
 // Where the unit is the metre, this clearance and this depth [m] are enough, however large the
@@ -215,13 +218,22 @@ struct Panorama {
   const std::uint8_t* lit = nullptr;  ///< 1 for each hit that one of the lights reaches.
 };
 
-/// Score of a view in a direction, from the rays of the panorama that are in its frame; higher is
-/// better. Minus infinity: the view is rejected.
-float score_view(const Scene& scene, const Panorama& panorama, int direction, float half_width,
-                 float scale) {
+/// A view in a direction, judged by the rays of the panorama that are in its frame.
+struct JudgedView {
+  glm::vec3 eye{0.0f};
+  float azimuth = 0.0f;
+  float score = -kInfiniteDistance;  ///< Without light; minus infinity: the view is rejected.
+  float lit = 0.0f;                  ///< Share of the rays that end where lights reach.
+};
+
+JudgedView judge_view(const Scene& scene, const Panorama& panorama, int direction, float half_width,
+                      float scale) {
+  JudgedView view;
   std::unordered_set<std::uint64_t> triangles;
   float depths = 0.0f, near = 0.0f, sky = 0.0f, backs = 0.0f, lit = 0.0f, rays = 0.0f;
   const float azimuth = kTwoPi * static_cast<float>(direction) / kViewDirections;
+  view.eye = panorama.eye;
+  view.azimuth = azimuth;
   for (std::size_t ring = 0; ring < kRings.size(); ++ring) {
     for (int i = 0; i < kRingRays; ++i) {
       const float turn = kTwoPi * static_cast<float>(i) / kRingRays - azimuth;
@@ -240,14 +252,31 @@ float score_view(const Scene& scene, const Panorama& panorama, int direction, fl
       triangles.insert(std::uint64_t{hit.instance} << 32 | hit.triangle);
     }
   }
-  if (sky == rays || backs > kMaxBacks * rays) return -kInfiniteDistance;
+  if (sky == rays || backs > kMaxBacks * rays) return view;
   const float depth = depths / (rays - sky);
-  if (depth * scale < panorama.least_depth) return -kInfiniteDistance;
+  if (depth * scale < panorama.least_depth) return view;
   // Count triangles logarithmically: a window in a wall matters more than one more leaf in a wood
   const float detail = std::log1p(static_cast<float>(triangles.size())) / std::log1p(rays);
-  return kDepthWeight * depth / kDeep + kDetailWeight * detail + kLitWeight * lit / rays -
-         kNearWeight * near / rays - kSkyWeight * std::max(sky / rays - kMaxSky, 0.0f) -
-         kBackWeight * backs / rays;
+  view.score = kDepthWeight * depth / kDeep + kDetailWeight * detail - kNearWeight * near / rays -
+               kSkyWeight * std::max(sky / rays - kMaxSky, 0.0f) - kBackWeight * backs / rays;
+  view.lit = lit / rays;
+  return view;
+}
+
+/// The best of some views, with the light that each shows as a share of the most that one does;
+/// null where all are rejected.
+const JudgedView* best_of(std::span<const JudgedView> views) {
+  float most_lit = kLeastMostLit;
+  for (const JudgedView& view : views) most_lit = std::max(most_lit, view.lit);
+  float best_score = -kInfiniteDistance;
+  const JudgedView* best = nullptr;
+  for (const JudgedView& view : views) {
+    const float score = view.score + kLitWeight * view.lit / most_lit;
+    if (score <= best_score) continue;
+    best_score = score;
+    best = &view;
+  }
+  return best;
 }
 
 }  // namespace
@@ -276,8 +305,7 @@ std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
   const std::vector<std::uint8_t> lit = find_lit(world, rays, hits);
 
   const float half_width = std::atan(std::tan(0.5f * vertical_fov) * aspect);
-  float best = -kInfiniteDistance;
-  std::optional<Camera> camera;
+  std::vector<JudgedView> views;
   for (std::size_t e = 0; e < eyes; ++e) {
     const Panorama panorama{rays[e * kPanoramaRays].origin,
                             least_distance(kMinDepth, kEnoughDepth, places[e], scale),
@@ -288,15 +316,12 @@ std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
             ->distance;
     if (nearest < least_distance(kClearance, kEnoughClearance, places[e], scale)) continue;
     for (int d = 0; d < kViewDirections; ++d) {
-      const float score = score_view(world.scene(), panorama, d, half_width, scale);
-      if (score <= best) continue;
-      best = score;
-      const float azimuth = kTwoPi * static_cast<float>(d) / kViewDirections;
-      camera = look_at(panorama.eye, panorama.eye + direction_from_angles(azimuth, -kTilt),
-                       vertical_fov);
+      views.push_back(judge_view(world.scene(), panorama, d, half_width, scale));
     }
   }
-  return camera;
+  const JudgedView* best = best_of(views);
+  if (best == nullptr) return std::nullopt;
+  return look_at(best->eye, best->eye + direction_from_angles(best->azimuth, -kTilt), vertical_fov);
 }
 
 std::optional<Camera> street_view(const World& world, const SpaceSurvey& survey,

@@ -146,6 +146,13 @@ TEST(NearVolumes, HoldTheWholePathOfACameraThatTravels) {
   EXPECT_TRUE(near_volumes(std::span<const Bounds>(), grid_of(5.0f)).empty());
 }
 
+TEST(NearVolumes, AreNotThereBeyondTheGrid) {
+  const FieldGrid grid = grid_of(25.0f);
+  const Bounds beside{{-2, 0, -3}, {2, 2, 3}}, beyond{{-2, -90, -3}, {2, -80, 3}};
+  EXPECT_FALSE(near_volumes(std::span(&beside, 1), grid).empty());
+  EXPECT_TRUE(near_volumes(std::span(&beyond, 1), grid).empty());
+}
+
 TEST(NearVolumes, AreNotThereInTheOpen) {
   const Scene scene = room(true);
   const World world(scene);

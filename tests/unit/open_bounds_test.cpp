@@ -69,6 +69,19 @@ TEST(OpenBounds, AreThoseOfTheRoomThatAViewerStandsInHoweverFarItIsFromTheRest) 
   }
 }
 
+// A box that was left 50 m below a room's ground makes the bounds so high that the ground is within
+// the depth of walls.
+TEST(OpenBounds, HoldAViewerAboveWhatWasForgottenBelow) {
+  const Scene scene = scene_of({box_mesh({-2, 0, -3}, {2, 2.7f, 11}, /*inwards=*/true),
+                                test::quad({-100, -0.6f, -100}, {200, 0, 0}, {0, 0, 200}, 0),
+                                box_mesh({-2.5f, -51, 3}, {2.5f, -49, 3.2f})});
+  const World world(scene);
+  const vec3 viewer(0.0f, 1.6f, -1.0f);
+  const Bounds open = open_bounds(world, viewer);
+  EXPECT_LT(open.min.y, -0.6f);
+  EXPECT_GT(open.max.y, viewer.y);
+}
+
 // The wall is a single sheet, seen by air on both sides; nothing but the sky is in front of it.
 TEST(FieldLight, IsTheSkysOnTheOutsideOfARoomThatIsSeenFromThere) {
   constexpr float kRadiance = 0.7f, kTolerance = 0.03f;
