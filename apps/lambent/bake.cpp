@@ -239,8 +239,9 @@ Expected<void> bake(const BakeOptions& options, const Job& job) {
   stats["ranks"] = job.ranks.count();
   FieldProgress reached;
   {
-    const ProgressFn progress = terminal_progress();
-    const bool tells_lines = job.ranks.count() > 1 && !progress;
+    const bool many = job.ranks.count() > 1;
+    const ProgressFn progress = many ? terminal_progress() : stderr_progress();
+    const bool tells_lines = many && !progress;
     reached =
         bake_field(*baking.world, baking.request,
                    {options.updates, progress, between_updates(options, job, baking, tells_lines)},

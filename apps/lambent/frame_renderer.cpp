@@ -127,7 +127,7 @@ glm::ivec2 preview_of(const glm::ivec2& size, int side) {
 
 FrameRenderer::FrameRenderer(const RenderOptions& options, const World& world,
                              const glm::ivec2& size)
-    : options_(options), world_(world), size_(size), progress_(terminal_progress()) {}
+    : options_(options), world_(world), size_(size), progress_(stderr_progress()) {}
 
 /// Brings the field up to date with the world. The first time, creates it or reads it from a file.
 Expected<void> FrameRenderer::follow(const Camera& camera, Json& stats) {

@@ -37,8 +37,8 @@ constexpr std::uint64_t kClearcoatBytes = 5 * kLayerBytes + 2 * sizeof(float);
 constexpr std::uint64_t kFilterBytes =
     20 * kLayerBytes + 9 * sizeof(float) + 128 + kGlassBytes + kClearcoatBytes;
 // Light that is averaged over frames, of the frame before and of this one: of surfaces, coats,
-// clearcoats, and highlights, which have no excess.
-constexpr std::uint64_t kHistoryBytes = 2 * (19 + 15 + 15 + 12) * sizeof(float);
+// clearcoats, and highlights, which have no excess; and two variances of this frame.
+constexpr std::uint64_t kHistoryBytes = (2 * (23 + 15 + 15 + 12) + 2) * sizeof(float);
 // A pixel that is lit by reflective shadow maps: position, normal and depth, planes of the guide
 // and of two lights, the interleaved picture, and the gathered light.
 constexpr std::uint64_t kRsmBytes = (7 + 7 + 2 * 3 + 3 + 3) * sizeof(float);

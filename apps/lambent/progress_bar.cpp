@@ -20,6 +20,11 @@ constexpr double kQuietSeconds = 1.0;
 /// Least time between two redraws [s]: eyes cannot follow more, and terminals are slow.
 constexpr double kRedrawSeconds = 0.1;
 constexpr int kMinBarColumns = 10, kMaxBarColumns = 40;
+/// Time between two lines in a log [s]: a reader sees that work goes on, and few lines in all.
+constexpr double kLogSeconds = 30.0;
+/// A line says how much time is left once a stage has taken this much [s]: the first rays are no
+/// measure.
+constexpr double kLeastElapsed = 5.0;
 /// Assumed width of a terminal that does not report it.
 constexpr int kDefaultColumns = 80;
 /// Moves to the start of the line and erases it (ECMA-48 EL).
@@ -35,16 +40,26 @@ double steady_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// " 50 %" of a share, and how much of the time is left where that is known, after `between`.
+/// `elapsed_seconds`: 0 where it is not to be told.
+std::string done_text(double share_done, double elapsed_seconds, std::string_view between) {
+  const double share = std::isfinite(share_done) ? std::clamp(share_done, 0.0, 1.0) : 0.0;
+  char percent[16];
+  std::snprintf(percent, sizeof percent, " %3d %%", static_cast<int>(share * 100.0));
+  std::string text = percent;
+  if (share > 0.0 && elapsed_seconds > 0.0) {
+    text += between;
+    text += whole_seconds_text(elapsed_seconds * (1.0 - share) / share) + " left";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string progress_line(std::string_view stage, double share_done, double elapsed_seconds,
                           int columns) {
   const double share = std::isfinite(share_done) ? std::clamp(share_done, 0.0, 1.0) : 0.0;
-  char percent[16];
-  std::snprintf(percent, sizeof percent, " %3d %%", static_cast<int>(share * 100.0));
-  std::string tail = percent;
-  if (share > 0.0)
-    tail += "  " + whole_seconds_text(elapsed_seconds * (1.0 - share) / share) + " left";
+  const std::string tail = done_text(share, elapsed_seconds, "  ");
 
   // The bar takes the rest of the line, and is omitted first where the terminal is narrow.
   std::string line(stage);
@@ -86,6 +101,30 @@ void ProgressBar::update(std::string_view stage, double share_done) {
 void ProgressBar::clear() {
   if (drawn_) write_(kWipe);
   drawn_ = false;
+}
+
+ProgressLog::ProgressLog(Write write, Clock clock)
+    : write_(std::move(write)), clock_(std::move(clock)), last_written_(clock_()) {}
+
+void ProgressLog::update(std::string_view stage, double share_done) {
+  const double now = clock_();
+  if (stage != stage_) {
+    stage_ = stage;
+    stage_start_ = now;
+  }
+  if (share_done >= 1.0) stage_.clear();  // the same stage may come again
+  if (share_done >= 1.0 || now - last_written_ < kLogSeconds) return;
+  const double elapsed = now - stage_start_;
+  write_(std::string(stage) + ":" +
+         done_text(share_done, elapsed < kLeastElapsed ? 0.0 : elapsed, ", "));
+  last_written_ = now;
+}
+
+ProgressFn stderr_progress() {
+  if (is_quiet() || isatty(STDERR_FILENO) != 0) return terminal_progress();
+  const auto log = std::make_shared<ProgressLog>(
+      [](std::string_view line) { tell(std::string(line)); }, steady_seconds);
+  return [log](std::string_view stage, double share_done) { log->update(stage, share_done); };
 }
 
 ProgressFn terminal_progress() {

@@ -41,6 +41,29 @@ class ProgressBar {
   bool drawn_ = false;
 };
 
+/// Writes the progress of successive stages as lines, one in half a minute: what a log of a long
+/// run shows.
+class ProgressLog {
+ public:
+  using Clock = ProgressBar::Clock;
+  using Write = ProgressBar::Write;  ///< Of a line, without its end.
+
+  ProgressLog(Write write, Clock clock);
+
+  void update(std::string_view stage, double share_done);
+
+ private:
+  Write write_;
+  Clock clock_;
+  double last_written_;
+  std::string stage_;
+  double stage_start_ = 0.0;
+};
+
+/// Shows progress on stderr, as a bar on a terminal and as lines elsewhere, unless the program is
+/// quiet.
+ProgressFn stderr_progress();
+
 /// Shows progress on stderr if that is a terminal and the program is not quiet; silent otherwise.
 /// The line is erased when the last copy of the function is destroyed.
 ProgressFn terminal_progress();

@@ -226,7 +226,7 @@ Expected<void> serve_own(const ServeOptions& options, const stream::PictureSetti
   if (!field) return tl::unexpected(field.error());
   nlohmann::ordered_json stats;
   const UpdateRequest request{0, 0.0, glm::vec3(view->camera.world_from_view[3])};
-  update_field(world, options.updates, request, *field, terminal_progress(), stats);
+  update_field(world, options.updates, request, *field, stderr_progress(), stats);
   return serve_world(options, stream::ServedWorld{scene, world, *field, view->camera},
                      server_settings(options, pictures, options.server.world.rate));
 }

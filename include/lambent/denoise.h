@@ -38,7 +38,7 @@ struct DenoiseView {
   DenoiseLobes lobes = {};
 };
 
-/// Light that arrives at the pixels' surfaces, without their albedo. Light, base and variance that
+/// Light that arrives at the pixels' surfaces, without their albedo. Light, base and variances that
 /// are not finite count as 0, lest they spread; levels are finite.
 struct NoisyLight {
   std::span<const glm::vec3> light;  ///< As it was sampled, >= 0.
@@ -53,10 +53,11 @@ struct NoisyLight {
   /// Neighbours with lower levels count less in proportion. Empty: it was not divided. Not together
   /// with `base`. With lobes, both must be empty.
   std::span<const float> levels = {};
-  /// Variance of the luminance of light that was averaged over pictures of one sample a pixel, from
-  /// how much these differ: about as noisy as the light. Light is filtered as without a variance,
-  /// but its noise is not estimated from neighbours: averages of reprojected pictures have most of
-  /// their noise in common with those. Not together with `variance`. Empty: it is unknown.
+  /// Variance of the luminance of light, less its base if any, that was averaged over pictures of
+  /// one sample a pixel, from the differences between these pictures. Pass by pass it is averaged
+  /// over neighbours, and replaces the noise that is estimated from them: in averages of
+  /// reprojected pictures, neighbours have most of their noise in common. All else is as without a
+  /// variance. Not together with `variance`. Empty: it is unknown.
   std::span<const float> history_variance = {};
 };
 
@@ -66,7 +67,7 @@ struct DenoiseSettings {
   /// filter reaches 1, 3, 7, 15, 31 and 63 pixels. Cost is in proportion.
   int passes = 6;
   /// Number of first passes that ignore differences of light and stop only at edges of surfaces, 1
-  /// to `passes`. The noise is estimated in them. Light of few rays needs two, since a bright ray
+  /// to `passes`. The noise is estimated in them, or averaged. Light of few rays needs two, since a bright ray
   /// differs from everything around it. Exceptions:
   /// - light with a base and a variance, unless this is all `passes`: only the first pass ignores
   ///   differences of light, the others of this number stop at those beyond the noise of both

@@ -93,14 +93,15 @@ std::optional<Bounds> near_box(const World& world, const Camera& camera, const F
 
 /// Volumes of about 4,096 probes each for fields whose grid is too coarse for a camera: one in its
 /// near_box(), and larger ones around that, each with a spacing of about 2.5 times that of the one
-/// before, up to the grid's. Finest first; none where they would be less than twice as fine.
+/// before, up to the grid's. Finest first; none where they would be less than twice as fine, or
+/// outside of the grid.
 std::vector<ProbeVolume> near_volumes(const World& world, const Camera& camera,
                                       const FieldGrid& grid);
 
 /// near_volumes() for a camera that travels, from its near_box() at places along its path [m], in
 /// order, none of them empty. The finest volume holds all of them, and has up to four times as many
 /// probes. Where these would be less than twice as fine as the grid, as along a road, the volumes
-/// are those of the first box alone. None for no boxes.
+/// are those of the first box alone. None for no boxes, and where the grid has none of them.
 std::vector<ProbeVolume> near_volumes(std::span<const Bounds> boxes, const FieldGrid& grid);
 
 }  // namespace lambent

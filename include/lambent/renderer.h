@@ -75,7 +75,7 @@ struct FrameSettings {
   bool denoise = false;
   /// Number of the renderer's pictures over which light is averaged before it is filtered, 1 to
   /// 1000; 1: no averaging. Light through glass is not averaged. More pictures leave less noise in
-  /// sequences, at up to 490 bytes per pixel. Each picture then draws other rays. Surfaces are
+  /// sequences, at up to 530 bytes per pixel. Each picture then draws other rays. Surfaces are
   /// followed as the camera moves, reflections by what they show. Averages start anew for surfaces
   /// that were not seen before; where things move, on them, around them, in the shadows of lamps
   /// that they may move, and where mirrors may show them. Elsewhere, a frame counts for an eighth

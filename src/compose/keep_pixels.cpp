@@ -208,7 +208,7 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
   keep(gbuffer, found.excess, first, count, pixels.excess);
   keep(gbuffer, found.variance, first, count, pixels.gathered_variance);
   keep(gbuffer, looked_up, first, count, pixels.looked_up);
-  // Those are of the frame before; average_light() finds this one's
+  // The frame before left its own; average_light() finds those of this frame
   pixels.gathered_history_variance.clear();
   pixels.emitter_history_variance.clear();
   parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {

@@ -25,7 +25,7 @@ struct AtrousLight {
   Real3 light;
   Real3 base;
   /// Variance of an unfiltered pixel's luminance, estimated from the pixels filtered so far. Where
-  /// variances are not measured: the mean of squares, until the geometric passes end.
+  /// variances are unknown: the mean of squares, until the geometric passes end.
   Real spread;
   /// Variance of this pixel's luminance as a share of that of an unfiltered one.
   Real share;

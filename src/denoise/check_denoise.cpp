@@ -100,7 +100,8 @@ std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has
     pass.geometric = first && !(tells_edges && i > 0) ? 1 : 0;
     // Passes that compare light keep that of a strip from the surface beside it by its brightness
     pass.checks_steps = !measured && settings.geometric_passes == settings.passes ? 1 : 0;
-    pass.ends_estimate = noise_from == NoiseFrom::neighbours && i == settings.geometric_passes - 1;
+    pass.ends_estimate =
+        noise_from == NoiseFrom::neighbours && i == settings.geometric_passes - 1 ? 1 : 0;
     pass.only_spread = knows_noise && i == 0 ? 1 : 0;
     pass.harmonic = measured && !(first && tells_edges) ? 1 : 0;
     pass.has_base = has_base ? 1 : 0;

@@ -74,13 +74,13 @@ constexpr float kClearance = 0.015f, kNear = 0.07f, kDeep = 0.5f;
 // A larger share of sky than this counts against a view.
 constexpr float kMaxSky = 0.1f;
 // Weights of a view's score: mean depth of what is not sky, detail by the number of different
-// triangles, and the share that the scene's own lights reach, against what is near, sky, and backs
-// of surfaces.
+// triangles, and the share that the scene's own lights reach over the largest of any view, against
+// what is near, sky, and backs of surfaces.
 constexpr float kDepthWeight = 2.0f, kDetailWeight = 0.8f, kLitWeight = 0.6f, kNearWeight = 1.5f,
                 kSkyWeight = 1.5f, kBackWeight = 0.8f;
-// Where lights reach less than this share of every view's rays, they hardly count: single rays
-// decide.
-constexpr float kLeastMostLit = 0.1f;
+// Shares of rays that lights reach are divided by at least this, some eight rays of a view: single
+// ones would decide in rooms that are darker.
+constexpr float kMinLargestLit = 0.1f;
 // A view with less depth than this share of the diagonal, or with more backs, is rejected.
 constexpr float kMinDepth = 0.06f, kMaxBacks = 0.6f;
 // Where the unit is the metre, this clearance and this depth [m] are enough, however large the
@@ -263,15 +263,14 @@ JudgedView judge_view(const Scene& scene, const Panorama& panorama, int directio
   return view;
 }
 
-/// The best of some views, with the light that each shows as a share of the most that one does;
-/// null where all are rejected.
+/// The best of some views by score and light; null where all are rejected.
 const JudgedView* best_of(std::span<const JudgedView> views) {
-  float most_lit = kLeastMostLit;
-  for (const JudgedView& view : views) most_lit = std::max(most_lit, view.lit);
+  float largest_lit = kMinLargestLit;
+  for (const JudgedView& view : views) largest_lit = std::max(largest_lit, view.lit);
   float best_score = -kInfiniteDistance;
   const JudgedView* best = nullptr;
   for (const JudgedView& view : views) {
-    const float score = view.score + kLitWeight * view.lit / most_lit;
+    const float score = view.score + kLitWeight * view.lit / largest_lit;
     if (score <= best_score) continue;
     best_score = score;
     best = &view;
@@ -306,6 +305,7 @@ std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
 
   const float half_width = std::atan(std::tan(0.5f * vertical_fov) * aspect);
   std::vector<JudgedView> views;
+  views.reserve(eyes * kViewDirections);
   for (std::size_t e = 0; e < eyes; ++e) {
     const Panorama panorama{rays[e * kPanoramaRays].origin,
                             least_distance(kMinDepth, kEnoughDepth, places[e], scale),

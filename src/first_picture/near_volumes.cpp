@@ -159,7 +159,8 @@ std::vector<ProbeVolume> near_volumes(std::span<const Bounds> boxes, const Field
   Bounds box;
   for (const Bounds& part : boxes) box.add(part);
   const Bounds whole{grid.origin, grid.origin + grid.spacing * glm::vec3(grid.count - 1)};
-  if (boxes.empty() || !overlap(box, whole)) return {};
+  const Bounds margin{whole.min - grid.spacing, whole.max + grid.spacing};
+  if (boxes.empty() || !overlap(box, margin)) return {};
   const std::optional<ProbeVolume> finest = finest_volume(box, boxes);
   if (!finest) return {};
   const glm::vec3 cells(finest->probe_count - 1);

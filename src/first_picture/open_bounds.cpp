@@ -135,7 +135,8 @@ Bounds open_bounds(const World& world, std::optional<glm::vec3> viewer_ws) {
                                    /*viewed=*/viewer[axis] < bounds.min[axis]);
     const float upper = side_inset(world, sides, room, bounds, axis, true,
                                    /*viewed=*/viewer[axis] > bounds.max[axis]);
-    // What is behind the viewer is no wall: a ground, where something far below it was forgotten
+    // A wall is between the viewer and the bounds. What would leave the viewer outside is no wall,
+    // such as a ground that something far below it brings within the depth of walls
     if (!within || open.min[axis] + lower <= viewer[axis]) open.min[axis] += lower;
     if (!within || open.max[axis] - upper >= viewer[axis]) open.max[axis] -= upper;
   }

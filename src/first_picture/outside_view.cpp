@@ -20,8 +20,8 @@ constexpr float kDistanceToPoint = 1e-3f;
 
 // Number of surface points by which candidates are judged.
 constexpr int kJudgedPoints = 384;
-// Points whose surface is seen with a smaller cosine count less, in proportion: of a watch that lies
-// on its back or a laid table, a camera hardly above shows little.
+// Points whose surface is seen with a smaller cosine count less, in proportion: a camera that is
+// hardly above a laid table or the face of a watch shows little of it.
 constexpr float kGrazingCosine = 0.4f;
 // Number of rays across and up the frame by which candidates are judged.
 constexpr int kRaysAcross = 20, kRaysUp = 14;
@@ -130,7 +130,7 @@ Judgement judge(const World& world, const Camera& camera, const std::vector<Surf
                 float aspect) {
   const glm::vec3 eye(camera.world_from_view[3]);
   std::vector<Ray> rays;
-  std::vector<float> clear;
+  std::vector<float> weights;
   for (const SurfaceSample& point : points) {
     const glm::vec3 offset = eye - point.position_ws;
     const float distance = glm::length(offset);
@@ -139,13 +139,14 @@ Judgement judge(const World& world, const Camera& camera, const std::vector<Surf
     const glm::vec3 side =
         glm::dot(to_eye, point.normal_ws) < 0.0f ? -point.normal_ws : point.normal_ws;
     rays.push_back({offset_ray_origin(point.position_ws, side), 0.0f, to_eye, distance});
-    clear.push_back(std::min(glm::dot(to_eye, side) / kGrazingCosine, 1.0f));
+    weights.push_back(std::min(glm::dot(to_eye, side) / kGrazingCosine, 1.0f));
   }
   Judgement judgement;
   const std::vector<std::uint8_t> hidden = trace_occlusion(world, rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (hidden[i] == 0) judgement.seen += clear[i] / static_cast<float>(points.size());
+    if (hidden[i] == 0) judgement.seen += weights[i];
   }
+  if (!points.empty()) judgement.seen /= static_cast<float>(points.size());
 
   float met = 0.0f, backs = 0.0f;
   for (const Hit& hit : trace(world, frame_rays(camera, aspect, kRaysAcross, kRaysUp))) {

@@ -347,6 +347,12 @@ TEST(Denoise, RefusesWhatIsOutOfRange) {
             "filtered light");
   EXPECT_EQ(place_of(denoiser.filter(wall.view(), {wall.light, too_few}, {}, result)), "base");
   EXPECT_EQ(place_of(denoiser.filter(wall.view(), {.light = too_few}, {}, result)), "light");
+  const std::vector<float> variances(wall.light.size()), few_variances(63);
+  EXPECT_EQ(place_of(denoiser.filter(
+                wall.view(), {.light = wall.light, .history_variance = few_variances}, {}, result)),
+            "variance of the history");
+  const NoisyLight both{.light = wall.light, .variance = variances, .history_variance = variances};
+  EXPECT_EQ(place_of(denoiser.filter(wall.view(), both, {}, result)), "noisy light");
   DenoiseView view = wall.view();
   view.normals_ws = too_few;
   EXPECT_EQ(place_of(denoiser.filter(view, {.light = wall.light}, {}, result)), "normals");

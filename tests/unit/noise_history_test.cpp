@@ -26,19 +26,25 @@ class SlidingWall {
   /// `step`: how far it slides from frame to frame [pixels], 0 to below 1.
   explicit SlidingWall(float step) : step_(step) {
     noise_.resize(wall.light.size(), /*samples_measure=*/false);
+    frames_.assign(wall.light.size(), 0.0f);
     wall.history_variance.assign(wall.light.size(), 0.0f);
   }
 
-  void add_frame() {
+  /// Adds a frame in which each pixel has a random light of mean `level`; `changes`: it is known
+  /// that this is another level than before.
+  void add_frame(float level = 1.0f, bool changes = false) {
     const std::vector<vec3> before = wall.light;
     const NoiseHistory last = noise_;
-    wall.set_light([](int, int, float u) { return one_in_eight(u); }, ++frame_);
+    const std::vector<float> frames_before = frames_;
+    wall.set_light([&](int, int, float u) { return level * one_in_eight(u); }, ++frame_);
     for (std::size_t i = 0; i < wall.light.size(); ++i) {
       const HistoryTaps taps = frame_ > 1 ? taps_of(static_cast<int>(i)) : no_history();
-      const float frames = is_history(taps) ? std::min(kMostFrames, static_cast<float>(frame_)) : 1;
+      float& frames = frames_[i] = 1.0f;
+      if (is_history(taps))
+        frames = averaged_frames(weighted_sum(frames_before, taps), kMostFrames);
       vec3& light = wall.light[i];
       const vec3 average = weighted_sum(before, taps);
-      const AveragedPixel pixel{i, taps, luminance(light - average), frames};
+      const AveragedPixel pixel{i, taps, luminance(light - average), frames, changes};
       average_noise(last, pixel, {measured_, wall.history_variance}, noise_);
       light = mix(average, light, 1.0f / frames);
     }
@@ -57,14 +63,15 @@ class SlidingWall {
   HistoryTaps taps_of(int pixel) const {
     HistoryTaps taps = no_history();
     const int x = pixel % wall.width;
-    if (x + 1 == wall.width) return taps;  // what slides into the picture
+    if (step_ > 0.0f && x + 1 == wall.width) return taps;  // what slides into the picture
     taps.pixels[0] = pixel, taps.weights[0] = 1.0f - step_;
-    taps.pixels[1] = pixel + 1, taps.weights[1] = step_;
+    if (step_ > 0.0f) taps.pixels[1] = pixel + 1, taps.weights[1] = step_;
     return taps;
   }
 
   float step_;
   std::uint32_t frame_ = 0;
+  std::vector<float> frames_;  // in the average of each pixel
   NoiseHistory noise_;
   std::vector<float> measured_;  // no samples measure variances
 };
@@ -84,7 +91,20 @@ TEST(NoiseHistory, KnowsTheVarianceOfAverages) {
   }
 }
 
-TEST(NoiseHistory, IsABoundInAFirstFrame) {
+TEST(NoiseHistory, DoesNotTakeLightThatChangesForNoise) {
+  SlidingWall wall(0.0f);
+  for (int i = 0; i < 40; ++i) wall.add_frame();
+  const auto total = [&] {
+    double sum = 0.0;
+    for (const float variance : wall.wall.history_variance) sum += variance;
+    return sum;
+  };
+  const double before = total();
+  wall.add_frame(20.0f, /*changes=*/true);
+  EXPECT_NEAR(total(), before, 0.02 * before);
+}
+
+TEST(NoiseHistory, IsTheSquaredLuminanceInAFirstFrame) {
   SlidingWall wall(0.0f);
   wall.add_frame();
   for (std::size_t i = 0; i < wall.wall.light.size(); ++i) {

@@ -66,6 +66,24 @@ TEST(ProgressBar, MeasuresEachStageFromItsOwnStart) {
   EXPECT_NE(bench.output.find("4 s left"), std::string::npos) << bench.output;
 }
 
+TEST(ProgressLog, WritesALineInHalfAMinuteAndNoneOfWhatIsDone) {
+  std::string output;
+  double now = 7.0;
+  ProgressLog log([&](std::string_view line) { output += std::string(line) + "\n"; },
+                  [&] { return now; });
+  log.update("first", 0.5);
+  now += 31.0;
+  log.update("first", 1.0);
+  EXPECT_EQ(output, "");
+  log.update("second", 0.0);
+  EXPECT_EQ(output, "second:   0 %\n");
+  now += 20.0;
+  log.update("second", 0.25);
+  now += 10.0;
+  log.update("second", 0.75);
+  EXPECT_EQ(output, "second:   0 %\nsecond:  75 %, 10 s left\n");
+}
+
 TEST(ProgressBar, WipesItsLineWhenAbandoned) {
   std::string output;
   double now = 0.0;

@@ -22,7 +22,7 @@ void average(const std::vector<T>& before, const HistoryTaps& taps, float frames
 }
 
 /// Luminance of a pixel's light less that of the history's, which is 0 where there is none.
-float off_average(const std::vector<vec3>& before, const HistoryTaps& taps, const vec3& now) {
+float luminance_off(const std::vector<vec3>& before, const HistoryTaps& taps, const vec3& now) {
   return luminance(now - weighted_sum(before, taps));
 }
 
@@ -40,28 +40,28 @@ void average_gathered(const LightHistory& last, const HistoryTaps& taps, const M
     const float kept = kept_by_lookup(weighted_sum(last.looked_up, taps), looked_up);
     frames = averaged_frames(kept * weighted_sum(last.gathered_frames, taps), most.of_gathers);
   }
-  const float off = off_average(last.differences, taps, difference);
+  const float off = luminance_off(last.differences, taps, difference);
   average(last.differences, taps, frames, difference);
   average(last.looked_up, taps, frames, looked_up);
   const vec3 excess = relit ? vec3(0.0f) : weighted_sum(last.excess, taps);
   next.excess[i] = averaged_excess(excess, pixels.excess[i]);
   if (!moves) pixels.excess[i] = next.excess[i];
   pixels.gathered[i] = pixels.looked_up[i] + difference;
-  average_noise(last.gathered_noise, {i, taps, off, frames},
+  average_noise(last.gathered_noise, {i, taps, off, frames, relit},
                 {pixels.gathered_variance, pixels.gathered_history_variance}, next.gathered_noise);
 }
 
 void average_emitters(const LightHistory& last, const HistoryTaps& taps, const MostFrames& most,
-                      std::size_t i, FilteredPixels& pixels, LightHistory& next) {
+                      bool relit, std::size_t i, FilteredPixels& pixels, LightHistory& next) {
   vec3& light = pixels.emitters[i];
   float& frames = next.frames[i] = 1.0f;
   if (is_history(taps)) {
     frames = averaged_frames(weighted_sum(last.frames, taps), most.of_emitters);
   }
-  const float off = off_average(last.emitters, taps, light);
+  const float off = luminance_off(last.emitters, taps, light);
   average(last.emitters, taps, frames, light);
   next.emitters[i] = light;
-  average_noise(last.emitter_noise, {i, taps, off, frames},
+  average_noise(last.emitter_noise, {i, taps, off, frames, relit},
                 {pixels.emitter_variance, pixels.emitter_history_variance}, next.emitter_noise);
 }
 
@@ -147,10 +147,11 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
       (request.light_continues || changed != nullptr) && has_same_light(last, pixels);
   const CameraRecord& camera = by.views.now;
   shape(pixels, next);
-  // Frames that are lit otherwise differ from their averages by more than noise
+  // Averages that begin anew in most of a picture have the noise of few frames, which neighbours
+  // tell better
   const bool tells_noise = continues && !relit;
-  pixels.gathered_history_variance.resize(tells_noise ? next.gathered_noise.frames.size() : 0);
-  pixels.emitter_history_variance.resize(tells_noise ? next.emitter_noise.frames.size() : 0);
+  pixels.gathered_history_variance.resize(tells_noise ? next.gathered_noise.shares.size() : 0);
+  pixels.emitter_history_variance.resize(tells_noise ? next.emitter_noise.shares.size() : 0);
   parallel_chunks(pixels.depths.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     SurfacesBefore before{surfaces_before(last, continues)};
     for (std::size_t i = begin; i < end; ++i) {
@@ -175,7 +176,7 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
         const bool moves = by.moved != nullptr && by.moved->contain(pixels.positions_ws[i]);
         average_gathered(last, taps, most, relit, moves, i, pixels, next);
       }
-      if (!pixels.emitters.empty()) average_emitters(last, taps, most, i, pixels, next);
+      if (!pixels.emitters.empty()) average_emitters(last, taps, most, relit, i, pixels, next);
     }
   });
   average_reflections(by, last, continues && !relit, pixels, next);

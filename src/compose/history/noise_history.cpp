@@ -3,22 +3,27 @@
 
 #include <algorithm>
 
+#include "denoise/atrous_pass.h"
+#include "denoise/history_math.h"
+
 namespace lambent {
 namespace {
 
-/// Variance of the averaged light's luminance, from how far frames are off their averages.
+/// Variance of the averaged light's luminance, from the differences between frames and averages.
 float variance_by_frames(const NoiseHistory& last, const AveragedPixel& pixel, NoiseHistory& next) {
   const std::size_t i = pixel.index;
-  float& variance = next.of_frames[i] = pixel.off * pixel.off;
-  float& frames = next.frames[i] = 0.0f;
+  const float difference = finite_or_dark(pixel.difference);
+  float& variance = next.of_frames[i] = difference * difference;
   float& share = next.shares[i] = 1.0f;
   if (is_history(pixel.taps)) {
-    // The difference of a frame from the average before it has the variances of both
+    // The difference has the variances of the frame and of the average, which has at most this
+    // share: interpolation between pixels lowers it
     const float share_before = weighted_sum(last.shares, pixel.taps);
     variance /= 1.0f + share_before;
-    // A rare bright sample counts as much in the variance as in the light, or it would stand out
-    frames = averaged_frames(weighted_sum(last.frames, pixel.taps), pixel.frames);
-    variance = mix(weighted_sum(last.of_frames, pixel.taps), variance, 1.0f / frames);
+    // A rare bright sample counts as much in the variance as in the light, or it would stand out.
+    // The light's first frame had no difference
+    const float weight = pixel.is_changed ? 0.0f : 1.0f / std::max(pixel.frames - 1.0f, 1.0f);
+    variance = mix(weighted_sum(last.of_frames, pixel.taps), variance, weight);
     share = averaged_variance(share_before, 1.0f, pixel.frames);
   }
   return variance * share;
@@ -28,10 +33,9 @@ float variance_by_frames(const NoiseHistory& last, const AveragedPixel& pixel, N
 
 void NoiseHistory::resize(std::size_t pixels, bool samples_measure) {
   measured.resize(samples_measure ? pixels : 0);
-  const std::size_t told = samples_measure ? 0 : pixels;
-  of_frames.resize(told);
-  frames.resize(told);
-  shares.resize(told);
+  const std::size_t by_frames = samples_measure ? 0 : pixels;
+  of_frames.resize(by_frames);
+  shares.resize(by_frames);
 }
 
 void average_noise(const NoiseHistory& last, const AveragedPixel& pixel, const FrameNoise& noise,

@@ -2,9 +2,12 @@
 // The noise of light that is averaged over frames.
 //
 // Based on: Schied et al., "Spatiotemporal Variance-Guided Filtering", HPG 2017, sec. 4.2, for
-// variances from frames in place of neighbours.
+// variances from frames in place of neighbours. That keeps two moments, and takes neighbours for
+// surfaces seen in fewer than four frames; here, what a frame is off the average before it tells
+// from the second frame on, and only the filter averages that over neighbours.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "compose/history/history_taps.h"
@@ -12,17 +15,19 @@
 namespace lambent {
 
 /// What frames leave to the next one about the noise of one kind of light, one entry a pixel. Where
-/// a pixel's samples measure the variance of their mean, that is averaged. Frames of one sample a
-/// pixel measure none, and how far each is off the average before it tells. Neighbours do not:
-/// where the camera moves, each frame is interpolated between pixels of the one before, so that
-/// they have most of their noise in common, and a filter that took their differences for all of the
-/// noise would preserve the rest of it as mottles.
+/// a pixel has several samples, these measure the variance of their mean, and the variance of the
+/// average over frames follows. With one sample, the differences between frames and the averages
+/// before them give it. Differences between neighbours would not: where the camera moves, each
+/// frame is interpolated between pixels of the one before, so that neighbours have most of their
+/// noise in common. A filter that took their differences for all of the noise would preserve the
+/// rest of it as mottles.
 struct NoiseHistory {
-  /// Variance of the averaged light's luminance from samples; empty where frames tell it.
+  /// Variance of the averaged light's luminance, from samples; empty for one sample a pixel.
   std::vector<float> measured;
-  std::vector<float> of_frames;  ///< Variance of a single frame's luminance, averaged; else empty.
-  std::vector<float> frames;     ///< Number of frames in `of_frames`; 0: that is a bound.
-  std::vector<float> shares;     ///< Variance of the averaged light over that of a frame's.
+  /// Variance of the luminance of one frame's light, averaged; empty where `measured` is not.
+  std::vector<float> of_frames;
+  /// Variance of the averaged light over `of_frames`; empty where `measured` is not.
+  std::vector<float> shares;
 
   /// Makes room for this many pixels.
   void resize(std::size_t pixels, bool samples_measure);
@@ -32,8 +37,11 @@ struct NoiseHistory {
 struct AveragedPixel {
   std::size_t index;
   const HistoryTaps& taps;
-  float off;     ///< Luminance of the frame's light less the average's; without one: of the light.
-  float frames;  ///< Number of frames in the light's average with this one.
+  /// Luminance of the frame's light less that of the average, which is 0 without a history.
+  float difference;
+  float frames;  ///< Number of frames in the light's average with this one, >= 1.
+  bool
+      is_changed;  ///< Light has changed since the frame before: the difference is not noise alone.
 };
 
 /// A frame's variances; see NoisyLight::variance and history_variance.
@@ -42,8 +50,9 @@ struct FrameNoise {
   std::vector<float>& from_history;  ///< Written unless it is empty.
 };
 
-/// Computes the variance of a pixel's averaged light. Where neither samples nor a history tell it,
-/// it is the squared luminance, which is a bound. `next` has the size of this frame.
+/// Computes the variance of a pixel's averaged light. Of one sample without a history it is its
+/// squared luminance, whose mean over neighbours is at least the variance. `next` has the size of
+/// this frame.
 void average_noise(const NoiseHistory& last, const AveragedPixel& pixel, const FrameNoise& noise,
                    NoiseHistory& next);
 
