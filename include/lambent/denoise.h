@@ -67,8 +67,8 @@ struct DenoiseSettings {
   /// filter reaches 1, 3, 7, 15, 31 and 63 pixels. Cost is in proportion.
   int passes = 6;
   /// Number of first passes that ignore differences of light and stop only at edges of surfaces, 1
-  /// to `passes`. The noise is estimated in them, or averaged. Light of few rays needs two, since a bright ray
-  /// differs from everything around it. Exceptions:
+  /// to `passes`. The noise is estimated in them, or averaged. Light of few rays needs two, since a
+  /// bright ray differs from everything around it. Exceptions:
   /// - light with a base and a variance, unless this is all `passes`: only the first pass ignores
   ///   differences of light, the others of this number stop at those beyond the noise of both
   ///   pixels;

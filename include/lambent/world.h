@@ -105,9 +105,9 @@ class World {
 /// walled where most rays from outside pass through no more than a tenth of the scene before they
 /// reach open space. Where surfaces of an object, rather than a room, face out of another side,
 /// some air is added, so that there are probes in front of them, too; other sides are not changed.
-/// A viewer outside the world's bounds adds air in front of the walls that face it; one inside keeps
-/// sides where they are that would leave it outside of the open space. Parts that
-/// are few and far from the rest are left out; or the rest is, if the viewer stands in such a part.
+/// A viewer outside the world's bounds adds air in front of the walls that face it; one inside
+/// keeps sides where they are that would leave it outside of the open space. Parts that are few and
+/// far from the rest are left out; or the rest is, if the viewer stands in such a part.
 Bounds open_bounds(const World& world, std::optional<glm::vec3> viewer_ws = std::nullopt);
 
 }  // namespace lambent

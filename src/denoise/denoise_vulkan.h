@@ -25,8 +25,8 @@ struct DenoiseViewOnDevice {
   LobeGuideArray lobes = {};  ///< Address 0 where the light comes from the hemisphere.
 };
 
-/// NoisyLight in a device's memory, without history_variance: light is averaged over pictures on the
-/// processor alone. Addresses are 0 where there is no base, variance or level.
+/// NoisyLight in a device's memory, without history_variance: light is averaged over pictures on
+/// the processor alone. Addresses are 0 where there is no base, variance or level.
 struct NoisyLightOnDevice {
   Vec3Array light;
   Vec3Array base = {};

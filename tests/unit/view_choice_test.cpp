@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lambent/first_picture.h"
+#include "lambent/world.h"
 #include "support/box_scenes.h"
 #include "support/hand_made.h"
 
