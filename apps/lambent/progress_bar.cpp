@@ -24,7 +24,7 @@ constexpr int kMinBarColumns = 10, kMaxBarColumns = 40;
 constexpr double kLogSeconds = 30.0;
 /// A line says how much time is left once a stage has taken this much [s]: the first rays are no
 /// measure.
-constexpr double kLeastElapsed = 5.0;
+constexpr double kLeastElapsedSeconds = 5.0;
 /// Assumed width of a terminal that does not report it.
 constexpr int kDefaultColumns = 80;
 /// Moves to the start of the line and erases it (ECMA-48 EL).
@@ -41,7 +41,7 @@ double steady_seconds() {
 }
 
 /// " 50 %" of a share, and how much of the time is left where that is known, after `between`.
-/// `elapsed_seconds`: 0 where it is not to be told.
+/// `elapsed_seconds`: 0 where the time left is not to be said.
 std::string done_text(double share_done, double elapsed_seconds, std::string_view between) {
   const double share = std::isfinite(share_done) ? std::clamp(share_done, 0.0, 1.0) : 0.0;
   char percent[16];
@@ -116,7 +116,7 @@ void ProgressLog::update(std::string_view stage, double share_done) {
   if (share_done >= 1.0 || now - last_written_ < kLogSeconds) return;
   const double elapsed = now - stage_start_;
   write_(std::string(stage) + ":" +
-         done_text(share_done, elapsed < kLeastElapsed ? 0.0 : elapsed, ", "));
+         done_text(share_done, elapsed < kLeastElapsedSeconds ? 0.0 : elapsed, ", "));
   last_written_ = now;
 }
 

@@ -41,8 +41,7 @@ class ProgressBar {
   bool drawn_ = false;
 };
 
-/// Writes the progress of successive stages as lines, one in half a minute: what a log of a long
-/// run shows.
+/// Writes the progress of successive stages as lines for a log, one every half minute.
 class ProgressLog {
  public:
   using Clock = ProgressBar::Clock;

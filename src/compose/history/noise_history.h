@@ -3,8 +3,8 @@
 //
 // Based on: Schied et al., "Spatiotemporal Variance-Guided Filtering", HPG 2017, sec. 4.2, for
 // variances from frames in place of neighbours. That keeps two moments, and takes neighbours for
-// surfaces seen in fewer than four frames; here, what a frame is off the average before it tells
-// from the second frame on, and only the filter averages that over neighbours.
+// surfaces seen in fewer than four frames; here, the difference between a frame and the average
+// before it is used from the second frame on, and the filter averages it over neighbours.
 #pragma once
 
 #include <cstddef>
@@ -39,9 +39,8 @@ struct AveragedPixel {
   const HistoryTaps& taps;
   /// Luminance of the frame's light less that of the average, which is 0 without a history.
   float difference;
-  float frames;  ///< Number of frames in the light's average with this one, >= 1.
-  bool
-      is_changed;  ///< Light has changed since the frame before: the difference is not noise alone.
+  float frames;     ///< Number of frames in the light's average with this one, >= 1.
+  bool is_changed;  ///< The world is lit otherwise than before: not all of the difference is noise.
 };
 
 /// A frame's variances; see NoisyLight::variance and history_variance.
