@@ -22,9 +22,9 @@ constexpr double kRedrawSeconds = 0.1;
 constexpr int kMinBarColumns = 10, kMaxBarColumns = 40;
 /// Time between two lines in a log [s]: a reader sees that work goes on, and few lines in all.
 constexpr double kLogSeconds = 30.0;
-/// A line says how much time is left once a stage has taken this much [s]: the first rays are no
-/// measure.
-constexpr double kLeastElapsedSeconds = 5.0;
+/// A line in a log estimates the time that is left once a stage has taken this long [s]. Before,
+/// its first rays would decide.
+constexpr double kMinElapsedSeconds = 5.0;
 /// Assumed width of a terminal that does not report it.
 constexpr int kDefaultColumns = 80;
 /// Moves to the start of the line and erases it (ECMA-48 EL).
@@ -40,26 +40,25 @@ double steady_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// " 50 %" of a share, and how much of the time is left where that is known, after `between`.
-/// `elapsed_seconds`: 0 where the time left is not to be said.
-std::string done_text(double share_done, double elapsed_seconds, std::string_view between) {
-  const double share = std::isfinite(share_done) ? std::clamp(share_done, 0.0, 1.0) : 0.0;
-  char percent[16];
-  std::snprintf(percent, sizeof percent, " %3d %%", static_cast<int>(share * 100.0));
-  std::string text = percent;
-  if (share > 0.0 && elapsed_seconds > 0.0) {
-    text += between;
-    text += whole_seconds_text(elapsed_seconds * (1.0 - share) / share) + " left";
-  }
-  return text;
+/// A share that a stage reports, within 0 to 1.
+double limited_share(double share_done) {
+  return std::isfinite(share_done) ? std::clamp(share_done, 0.0, 1.0) : 0.0;
+}
+
+/// "12 s left" of a stage of which this share, above 0, is done.
+std::string time_left_text(double share, double elapsed_seconds) {
+  return whole_seconds_text(elapsed_seconds * (1.0 - share) / share) + " left";
 }
 
 }  // namespace
 
 std::string progress_line(std::string_view stage, double share_done, double elapsed_seconds,
                           int columns) {
-  const double share = std::isfinite(share_done) ? std::clamp(share_done, 0.0, 1.0) : 0.0;
-  const std::string tail = done_text(share, elapsed_seconds, "  ");
+  const double share = limited_share(share_done);
+  char percent[16];
+  std::snprintf(percent, sizeof percent, " %3d %%", static_cast<int>(share * 100.0));
+  std::string tail = percent;
+  if (share > 0.0) tail += "  " + time_left_text(share, elapsed_seconds);
 
   // The bar takes the rest of the line, and is omitted first where the terminal is narrow.
   std::string line(stage);
@@ -114,9 +113,11 @@ void ProgressLog::update(std::string_view stage, double share_done) {
   }
   if (share_done >= 1.0) stage_.clear();  // the same stage may come again
   if (share_done >= 1.0 || now - last_written_ < kLogSeconds) return;
-  const double elapsed = now - stage_start_;
-  write_(std::string(stage) + ":" +
-         done_text(share_done, elapsed < kLeastElapsedSeconds ? 0.0 : elapsed, ", "));
+  const double share = limited_share(share_done), elapsed = now - stage_start_;
+  std::string line =
+      std::string(stage) + ": " + std::to_string(static_cast<int>(share * 100.0)) + " %";
+  if (share > 0.0 && elapsed >= kMinElapsedSeconds) line += ", " + time_left_text(share, elapsed);
+  write_(line);
   last_written_ = now;
 }
 

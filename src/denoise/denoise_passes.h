@@ -10,7 +10,7 @@
 
 namespace lambent {
 
-/// What tells the noise of light: the pixels around it, earlier pictures, or a pixel's samples.
+/// What the noise of light is estimated from: pixels around it, earlier pictures, or its samples.
 enum class NoiseFrom : std::uint8_t { neighbours, history, samples };
 
 /// The passes, in order.

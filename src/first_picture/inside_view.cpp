@@ -78,8 +78,8 @@ constexpr float kMaxSky = 0.1f;
 // what is near, sky, and backs of surfaces.
 constexpr float kDepthWeight = 2.0f, kDetailWeight = 0.8f, kLitWeight = 0.6f, kNearWeight = 1.5f,
                 kSkyWeight = 1.5f, kBackWeight = 0.8f;
-// Shares of rays that lights reach are divided by at least this, some eight rays of a view: single
-// ones would decide in rooms that are darker.
+// Shares of rays that lights reach are divided by at least this, which is five rays of a view of
+// 16:9: single ones would decide in rooms that are darker.
 constexpr float kMinLargestLit = 0.1f;
 // A view with less depth than this share of the diagonal, or with more backs, is rejected.
 constexpr float kMinDepth = 0.06f, kMaxBacks = 0.6f;
@@ -221,22 +221,23 @@ struct Panorama {
 /// A view in a direction, judged by the rays of the panorama that are in its frame.
 struct JudgedView {
   glm::vec3 eye{0.0f};
-  float azimuth = 0.0f;
+  float azimuth = 0.0f;              ///< [rad]
   float score = -kInfiniteDistance;  ///< Without light; minus infinity: the view is rejected.
   float lit = 0.0f;                  ///< Share of the rays that end where lights reach.
 };
 
+/// Judges the view in one of kViewDirections. `half_width`: of the view [rad]; `scale`: diagonal of
+/// the scene [m].
 JudgedView judge_view(const Scene& scene, const Panorama& panorama, int direction, float half_width,
                       float scale) {
   JudgedView view;
   std::unordered_set<std::uint64_t> triangles;
   float depths = 0.0f, near = 0.0f, sky = 0.0f, backs = 0.0f, lit = 0.0f, rays = 0.0f;
-  const float azimuth = kTwoPi * static_cast<float>(direction) / kViewDirections;
   view.eye = panorama.eye;
-  view.azimuth = azimuth;
+  view.azimuth = kTwoPi * static_cast<float>(direction) / kViewDirections;
   for (std::size_t ring = 0; ring < kRings.size(); ++ring) {
     for (int i = 0; i < kRingRays; ++i) {
-      const float turn = kTwoPi * static_cast<float>(i) / kRingRays - azimuth;
+      const float turn = kTwoPi * static_cast<float>(i) / kRingRays - view.azimuth;
       if (std::abs(std::remainder(turn, kTwoPi)) > half_width) continue;
       const std::size_t at = ring * kRingRays + static_cast<std::size_t>(i);
       const Hit& hit = panorama.hits[at];

@@ -159,6 +159,7 @@ std::vector<ProbeVolume> near_volumes(std::span<const Bounds> boxes, const Field
   Bounds box;
   for (const Bounds& part : boxes) box.add(part);
   const Bounds whole{grid.origin, grid.origin + grid.spacing * glm::vec3(grid.count - 1)};
+  // Scenes reach up to a cell beyond their grid
   const Bounds margin{whole.min - grid.spacing, whole.max + grid.spacing};
   if (boxes.empty() || !overlap(box, margin)) return {};
   const std::optional<ProbeVolume> finest = finest_volume(box, boxes);

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <vector>
 
@@ -18,7 +18,7 @@ namespace {
 using test::one_in_eight;
 using test::Wall;
 
-constexpr float kMostFrames = 10.0f;
+constexpr float kMaxFrames = 10.0f;
 
 /// A wall whose light is averaged over frames while it slides through the picture.
 class SlidingWall {
@@ -40,8 +40,9 @@ class SlidingWall {
     for (std::size_t i = 0; i < wall.light.size(); ++i) {
       const HistoryTaps taps = frame_ > 1 ? taps_of(static_cast<int>(i)) : no_history();
       float& frames = frames_[i] = 1.0f;
-      if (is_history(taps))
-        frames = averaged_frames(weighted_sum(frames_before, taps), kMostFrames);
+      if (is_history(taps)) {
+        frames = averaged_frames(weighted_sum(frames_before, taps), kMaxFrames);
+      }
       vec3& light = wall.light[i];
       const vec3 average = weighted_sum(before, taps);
       const AveragedPixel pixel{i, taps, luminance(light - average), frames, changes};
@@ -80,14 +81,14 @@ TEST(NoiseHistory, KnowsTheVarianceOfAverages) {
   for (const int frames : {2, 5, 40}) {
     SlidingWall still(0.0f);
     for (int i = 0; i < frames; ++i) still.add_frame();
-    double told = 0.0, spread = 0.0;
+    double estimate = 0.0, spread = 0.0;
     const vec3 mean = vec3(1.0f, 0.5f, 0.25f);
     for (std::size_t i = 0; i < still.wall.light.size(); ++i) {
       const double off = luminance(still.wall.light[i] - mean);
       spread += off * off;
-      told += still.wall.history_variance[i];
+      estimate += still.wall.history_variance[i];
     }
-    EXPECT_NEAR(told, spread, 0.05 * spread) << frames << " frames";
+    EXPECT_NEAR(estimate, spread, 0.05 * spread) << frames << " frames";
   }
 }
 
@@ -119,7 +120,7 @@ TEST(NoiseHistory, KeepsMottlesOffWhatSlidesThroughThePicture) {
   const double with = sliding.deviation_of(sliding.wall.filtered());
   sliding.wall.history_variance.clear();
   const double without = sliding.deviation_of(sliding.wall.filtered());
-  std::printf("deviation after 20 frames: %.4f, %.4f with noise that neighbours tell\n", with,
+  std::printf("deviation after 20 frames: %.4f, %.4f with noise estimated from neighbours\n", with,
               without);
   EXPECT_LT(with, 0.6 * without);
 }

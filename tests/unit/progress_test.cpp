@@ -76,12 +76,12 @@ TEST(ProgressLog, WritesALineInHalfAMinuteAndNoneOfWhatIsDone) {
   log.update("first", 1.0);
   EXPECT_EQ(output, "");
   log.update("second", 0.0);
-  EXPECT_EQ(output, "second:   0 %\n");
+  EXPECT_EQ(output, "second: 0 %\n");
   now += 20.0;
   log.update("second", 0.25);
   now += 10.0;
   log.update("second", 0.75);
-  EXPECT_EQ(output, "second:   0 %\nsecond:  75 %, 10 s left\n");
+  EXPECT_EQ(output, "second: 0 %\nsecond: 75 %, 10 s left\n");
 }
 
 TEST(ProgressBar, WipesItsLineWhenAbandoned) {

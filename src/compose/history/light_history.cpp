@@ -147,11 +147,11 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
       (request.light_continues || changed != nullptr) && has_same_light(last, pixels);
   const CameraRecord& camera = by.views.now;
   shape(pixels, next);
-  // Averages that begin anew in most of a picture have the noise of few frames, which neighbours
-  // tell better
-  const bool tells_noise = continues && !relit;
-  pixels.gathered_history_variance.resize(tells_noise ? next.gathered_noise.shares.size() : 0);
-  pixels.emitter_history_variance.resize(tells_noise ? next.emitter_noise.shares.size() : 0);
+  // Once the world is lit otherwise, most averages begin anew, and neighbours give a better
+  // estimate of the noise of a few frames
+  const bool has_noise = continues && !relit;
+  pixels.gathered_history_variance.resize(has_noise ? next.gathered_noise.shares.size() : 0);
+  pixels.emitter_history_variance.resize(has_noise ? next.emitter_noise.shares.size() : 0);
   parallel_chunks(pixels.depths.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     SurfacesBefore before{surfaces_before(last, continues)};
     for (std::size_t i = begin; i < end; ++i) {
