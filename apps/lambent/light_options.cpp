@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "first_picture/studio.h"
+#include "first_picture/daylight.h"
 #include "lambent/input.h"
 #include "lambent/parse.h"
 #include "lambent/validators.h"
@@ -36,7 +36,7 @@ Expected<void> add_sun(const LightOptions& options, Scene& scene) {
   // In double, where squares of floats do not overflow
   const glm::dvec3 way(*direction);
   if (glm::length(way) < kMinDirection) return fail("--sun", "", "the direction has no length");
-  glm::vec3 irradiance = kFirstSunIrradiance;
+  glm::vec3 irradiance = kDaySunIrradiance;
   if (!options.sun_irradiance.empty()) {
     const auto given = parse_vec3("--sun-irradiance", options.sun_irradiance);
     if (!given) return tl::unexpected(given.error());

@@ -51,6 +51,22 @@ void filter_mirrored(DenoiseView view, FilteredPixels& pixels) {
   filter_lobes(view, pixels, pixels.mirrored);
 }
 
+/// Filters the light of emitters on the surfaces that mirrors show.
+void filter_mirrored_emitters(DenoiseView view, Denoiser& denoiser,
+                              MirroredEmitterPixels& emitters) {
+  const auto is_shown = [](float depth) { return depth > 0.0f; };
+  const bool any = std::any_of(emitters.depths.begin(), emitters.depths.end(), is_shown);
+  emitters.filtered.resize(any ? emitters.light.size() : 0);
+  if (!any) return;
+  view.positions_ws = emitters.positions_ws;
+  view.normals_ws = emitters.normals_ws;
+  view.depths = emitters.depths;
+  [[maybe_unused]] const Expected<void> done = denoiser.filter(
+      view, {.light = emitters.light, .variance = emitters.variance, .levels = emitters.levels},
+      emitter_denoising(), emitters.filtered);
+  assert(done);  // sizes are the view's
+}
+
 /// Filters what coats, clearcoats and coats in mirrors reflect, and highlights of emitters. As
 /// shadows may fall on highlights, pixels that differ by more than noise are not averaged.
 void filter_coats(DenoiseView view, FilteredPixels& pixels) {
@@ -75,6 +91,15 @@ void show_coat(const FilteredCoats& coats, std::size_t i, std::size_t pixel, flo
                Layers& layers) {
   if (coats.filtered.empty() || coats.alphas[i] <= 0.0f) return;
   const vec3 glossy = share * coats.albedo[i] * coats.filtered[i];
+  add(layers.glossy, pixel, glossy);
+  add(layers.all, pixel, glossy);
+}
+
+/// Adds the filtered light of emitters on what a pixel's mirror shows to its layers.
+void show_mirrored_emitters(const MirroredEmitterPixels& emitters, std::size_t i, std::size_t pixel,
+                            float share, Layers& layers) {
+  if (emitters.filtered.empty() || emitters.depths[i] <= 0.0f) return;
+  const vec3 glossy = share * emitters.albedo[i] * emitters.filtered[i];
   add(layers.glossy, pixel, glossy);
   add(layers.all, pixel, glossy);
 }
@@ -142,6 +167,7 @@ void filter_pixels(const FrameRequest& request, FilteredPixels& pixels) {
                                emitter_denoising(), pixels.filtered_emitters);
     assert(done);
   }
+  filter_mirrored_emitters(view, pixels.denoiser, pixels.mirrored_emitters);
   filter_coats(view, pixels);
   filter_through(view, pixels.denoiser, pixels.through);
 }
@@ -165,6 +191,7 @@ void show_filtered(const FilteredPixels& pixels, const ShownPixels& shown, float
       show_coat(pixels.coats, i, pixel, share, layers);
       show_coat(pixels.clearcoats, i, pixel, share, layers);
       show_coat(pixels.mirrored, i, pixel, share, layers);
+      show_mirrored_emitters(pixels.mirrored_emitters, i, pixel, share, layers);
       if (pixels.filtered_gathered.empty() || pixels.received_weight[i] == 0.0f) continue;
       const vec3 irradiance = share * pixels.filtered_gathered[i];
       const vec3 indirect = pixels.indirect_albedo[i] * irradiance;

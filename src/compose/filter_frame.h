@@ -28,6 +28,21 @@ struct FilteredCoats {
   void resize(std::size_t pixels);
 };
 
+/// The light of emitters on the surfaces that mirrors show, one entry a pixel. See
+/// MirroredEmitters.
+struct MirroredEmitterPixels {
+  std::vector<glm::vec3> positions_ws, normals_ws;
+  std::vector<float> depths;     ///< By way of the mirror [m]; 0: the pixel shows none.
+  std::vector<glm::vec3> light;  ///< Divided by albedo and level.
+  std::vector<float> variance;   ///< Empty where one sample is taken.
+  std::vector<float> levels;
+  std::vector<glm::vec3> albedo;    ///< Factor to the camera's radiance.
+  std::vector<glm::vec3> filtered;  ///< Empty where there is none.
+
+  /// Makes room for this many pixels; 0 for none.
+  void resize(std::size_t pixels, bool has_variance);
+};
+
 /// One sample of the pixels of the traced rows. Its memory is reused for the next sample and frame.
 struct FilteredPixels {
   // The surfaces that are seen
@@ -48,7 +63,8 @@ struct FilteredPixels {
   FilteredCoats mirrored;                        ///< The coats that mirrors show.
   std::vector<glm::vec3> mirrored_positions_ws;  ///< Places of their mirror images.
   std::vector<float> mirrored_depths;            ///< [m]; 0: the pixel shows none.
-  std::vector<glm::vec3> to_viewer_ws;           ///< Empty where there are no coats.
+  MirroredEmitterPixels mirrored_emitters;
+  std::vector<glm::vec3> to_viewer_ws;  ///< Empty where there are no coats.
   // Specular light of emitters, divided by filtered_coat_albedo() where rays light the coat. Its
   // lobes have a width of highlight_alpha()
   std::vector<glm::vec3> highlights, highlight_albedo;

@@ -39,6 +39,13 @@ struct FilteredPixelsRecord {
   Vec3Array mirrored_normals_ws;
   FloatArray mirrored_depths;
   LobeGuideArray mirrored_lobes;
+  Vec3Array mirrored_emitters;  ///< See MirroredEmitterPixels, as of the next six.
+  FloatArray mirrored_emitter_variance;
+  FloatArray mirrored_emitter_levels;
+  Vec3Array mirrored_emitter_albedo;
+  Vec3Array mirrored_emitter_positions_ws;
+  Vec3Array mirrored_emitter_normals_ws;
+  FloatArray mirrored_emitter_depths;
   Vec3Array highlights;
   Vec3Array highlight_albedo;
   LobeGuideArray highlight_lobes;
@@ -47,6 +54,7 @@ struct FilteredPixelsRecord {
   Vec3Array filtered_coats;
   Vec3Array filtered_clearcoats;
   Vec3Array filtered_mirrored;
+  Vec3Array filtered_mirrored_emitters;
   Vec3Array filtered_highlights;
 };
 LAMBENT_DEVICE_ARRAY(FilteredPixelsArray, FilteredPixelsRecord, 8)
@@ -88,18 +96,38 @@ struct KeepClearcoatsArguments {
   uint padding;
 };
 
-/// Stores what the coats that a band's mirrors show reflect.
+/// Stores the light of emitters on what pixels' mirrors show apart; see
+/// Glossy::keep_mirrored_emitters.
+struct KeepMirroredEmittersArguments {
+  SceneArray scene;
+  LitPointArray points;  ///< One a path, as are the next eight arrays.
+  PixelSurfaceArray surfaces;
+  CoatPathArray paths;
+  UintArray pixels;
+  Vec3Array diffuse;   ///< Light is added here.
+  Vec3Array specular;  ///< Light is added here.
+  Vec3Array drawn;     ///< Light of emitters.
+  Vec3Array drawn_specular;
+  FloatArray drawn_squares;
+  MirroredEmittersArray emitters;
+  uint count;  ///< Number of paths.
+  uint draws;  ///< Samples of emitters a path.
+};
+
+/// Stores what the coats that a band's mirrors show reflect, and the light of emitters there.
 struct KeepMirroredArguments {
+  LitPointArray points;
   PixelSurfaceArray surfaces;
   MirroredCoatArray mirrored;
-  Vec4Array fog;  ///< See fog_along(); read where has_fog is 1.
+  MirroredEmittersArray emitters;  ///< Read where `draws` is above 0.
+  Vec4Array fog;                   ///< See fog_along(); read where has_fog is 1.
   FilteredPixelsArray pixels;
   vec3 camera_ws;
   vec3 camera_back;  ///< Unit; against the direction of view.
   uint first;        ///< First pixel of the band among the traced pixels.
   uint count;
   uint has_fog;
-  uint padding;
+  uint draws;  ///< Samples of emitters on what mirrors show; 0: their light is not stored.
 };
 
 /// Adds filtered light to layers.
@@ -109,11 +137,12 @@ struct AddFilteredArguments {
   uint first;  ///< First of the shown pixels among the traced ones.
   uint count;
   float share;
-  uint emitters;  ///< 1: add this kind of light, as for the next four.
+  uint emitters;  ///< 1: add this kind of light, as for the next five.
   uint gathered;
   uint coats;
   uint clearcoats;
   uint mirrored;
+  uint mirrored_emitters;
 };
 
 LAMBENT_END

@@ -47,6 +47,7 @@
 #include "shaders/keep_behind_comp.h"
 #include "shaders/keep_clearcoats_comp.h"
 #include "shaders/keep_mirrored_comp.h"
+#include "shaders/keep_mirrored_emitters_comp.h"
 #include "shaders/keep_pixels_comp.h"
 #include "shaders/keep_through_comp.h"
 #include "shaders/luminances_comp.h"
@@ -109,14 +110,16 @@ struct FrameKernels {
   vulkan::Kernel compose{device, shaders::compose_comp(), "compose"};
   vulkan::Kernel keep_pixels{device, shaders::keep_pixels_comp(), "keep pixels"};
   vulkan::Kernel keep_mirrored{device, shaders::keep_mirrored_comp(), "keep coats in mirrors"};
+  vulkan::Kernel keep_mirrored_emitters{device, shaders::keep_mirrored_emitters_comp(),
+                                        "keep emitters' light in mirrors"};
   vulkan::Kernel keep_clearcoats{device, shaders::keep_clearcoats_comp(), "keep clearcoats"};
   vulkan::Kernel add_filtered{device, shaders::add_filtered_comp(), "add filtered"};
   vulkan::Kernel luminances{device, shaders::luminances_comp(), "luminances"};
   vulkan::Kernel scale_layers{device, shaders::scale_layers_comp(), "scale layers"};
 };
 
-/// Light that is filtered, of the traced rows: 392 bytes a pixel, and 96 more where mirrors may
-/// show coats. See FilteredPixelsRecord.
+/// Light that is filtered, of the traced rows: 392 bytes a pixel, and 168 more where mirrors may
+/// show coats and light of emitters. See FilteredPixelsRecord.
 struct FilteredBuffers {
   FilteredPixelsRecord record;
   vulkan::Buffer addresses;  ///< Holds `record`.
@@ -131,6 +134,9 @@ struct FilteredBuffers {
   vulkan::Buffer filtered_clearcoats;
   vulkan::Buffer mirrored, mirrored_albedo, mirrored_positions_ws, mirrored_normals_ws;
   vulkan::Buffer mirrored_depths, mirrored_lobes, filtered_mirrored;
+  vulkan::Buffer mirrored_emitters, mirrored_emitter_variance, mirrored_emitter_levels;
+  vulkan::Buffer mirrored_emitter_albedo, mirrored_emitter_positions_ws;
+  vulkan::Buffer mirrored_emitter_normals_ws, mirrored_emitter_depths, filtered_mirrored_emitters;
 };
 
 /// Light seen through surfaces, which is filtered, of the traced rows: 216 bytes a pixel.
@@ -203,6 +209,7 @@ struct FrameMemory {
   // Pixels, rays and lists of paths, for the rows around a band whose coats are lit by rays.
   // Bounces use the two lists in turn
   vulkan::Buffer coats, coat_guides, coat_points, coat_surfaces, coat_rays, mirrored, own_rays;
+  vulkan::Buffer mirrored_emitters;
   PathBuffers path_lists[2];
   PathBuffers forks;  // reflected branches, traced later
   vulkan::Buffer path_hits, path_points, path_surfaces, path_diffuse, path_specular;
@@ -310,15 +317,18 @@ class FramePassesVulkan final : public FramePasses {
   bool follow_all(std::uint32_t first_bounce, std::uint32_t first_index, std::uint32_t salt);
   void follow_paths(std::uint32_t paths, std::uint32_t bounce, std::uint32_t first_index,
                     std::uint32_t salt);
-  void reuse_coat_rays(const Band& around, const Buffer& sky, bool keeps_mirrored);
+  void reuse_coat_rays(const Band& around, const Buffer& sky, std::uint32_t keeps);
+  /// kKeepsMirrored and kKeepsMirroredEmitters, where that light is filtered.
+  std::uint32_t mirrored_light_kept() const;
+  void keep_mirrored_emitters(Recorder& to, std::uint32_t paths, const PathBuffers& from);
   /// Adds the light of sources behind rough surfaces, see Glossy::sample_lights_behind: of pixels,
   /// or of the paths in a list.
   void sample_lights_behind(Recorder& to, const DevicePixels& seen, std::uint32_t count, uint salt,
                             const PathBuffers* paths);
   /// See pack_path_step().
   std::uint32_t path_step(std::uint32_t bounce) const;
-  /// Samples of emitters at each hit behind glass; 0 where nothing is drawn at random.
-  std::uint32_t draws_behind_glass() const;
+  /// Samples of emitters at each hit of paths; 0 where nothing is drawn at random.
+  std::uint32_t reflected_draws() const;
   void begin_through(std::size_t pixels);
   void start_through();
   void keep_behind(Recorder& to, std::uint32_t paths, const PathBuffers& from);
@@ -363,7 +373,8 @@ class FramePassesVulkan final : public FramePasses {
   std::uint32_t path_seed_ = 0;  // seed of the paths' random numbers
   bool splits_paths_ = false;    // paths split, with reflected branches in FrameMemory::forks
   bool samples_behind_ = false;  // there may be lights behind rough surfaces to sample
-  bool keeps_behind_ = false;    // light of the first opaque surfaces behind glass is stored apart
+  bool keeps_mirrored_emitters_ = false;
+  bool keeps_behind_ = false;  // light of the first opaque surfaces behind glass is stored apart
 };
 
 }  // namespace lambent

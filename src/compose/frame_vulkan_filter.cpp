@@ -55,7 +55,7 @@ void FramePassesVulkan::begin_filter() {
   r.clearcoat_normals_ws.address = room(clearcoated, sizeof(vec3), f.clearcoat_normals_ws);
   r.clearcoat_lobes.address = room(clearcoated, sizeof(LobeGuide), f.clearcoat_lobes);
   r.filtered_clearcoats.address = room(clearcoated, sizeof(vec3), f.filtered_clearcoats);
-  const std::size_t mirrored = filters_mirrored_coats(*request_) ? pixels : 0;
+  const std::size_t mirrored = filters_mirrored_light(*request_) ? pixels : 0;
   r.mirrored.address = room(mirrored, sizeof(vec3), f.mirrored);
   r.mirrored_albedo.address = room(mirrored, sizeof(vec3), f.mirrored_albedo);
   r.mirrored_positions_ws.address = room(mirrored, sizeof(vec3), f.mirrored_positions_ws);
@@ -63,6 +63,22 @@ void FramePassesVulkan::begin_filter() {
   r.mirrored_depths.address = room(mirrored, sizeof(float), f.mirrored_depths);
   r.mirrored_lobes.address = room(mirrored, sizeof(LobeGuide), f.mirrored_lobes);
   r.filtered_mirrored.address = room(mirrored, sizeof(vec3), f.filtered_mirrored);
+  const std::size_t lit_in_mirrors =
+      (mirrored_light_kept() & kKeepsMirroredEmitters) != 0u ? pixels : 0;
+  r.mirrored_emitters.address = room(lit_in_mirrors, sizeof(vec3), f.mirrored_emitters);
+  r.mirrored_emitter_variance.address =
+      room(lit_in_mirrors, sizeof(float), f.mirrored_emitter_variance);
+  r.mirrored_emitter_levels.address =
+      room(lit_in_mirrors, sizeof(float), f.mirrored_emitter_levels);
+  r.mirrored_emitter_albedo.address = room(lit_in_mirrors, sizeof(vec3), f.mirrored_emitter_albedo);
+  r.mirrored_emitter_positions_ws.address =
+      room(lit_in_mirrors, sizeof(vec3), f.mirrored_emitter_positions_ws);
+  r.mirrored_emitter_normals_ws.address =
+      room(lit_in_mirrors, sizeof(vec3), f.mirrored_emitter_normals_ws);
+  r.mirrored_emitter_depths.address =
+      room(lit_in_mirrors, sizeof(float), f.mirrored_emitter_depths);
+  r.filtered_mirrored_emitters.address =
+      room(lit_in_mirrors, sizeof(vec3), f.filtered_mirrored_emitters);
   r.highlights.address = room(lit, sizeof(vec3), f.highlights);
   r.highlight_albedo.address = room(lit, sizeof(vec3), f.highlight_albedo);
   r.highlight_lobes.address = room(lit, sizeof(LobeGuide), f.highlight_lobes);
@@ -108,7 +124,7 @@ void FramePassesVulkan::keep_pixels() {
                                            has};
     to.run(kernels_.keep_pixels, arguments, pixels_);
   });
-  if (filters_mirrored_coats(*request_)) keep_mirrored();
+  if (filters_mirrored_light(*request_)) keep_mirrored();
   if (filters_through(*request_)) keep_through();
 }
 
@@ -120,8 +136,10 @@ void FramePassesVulkan::keep_mirrored() {
   add("compose", [this, before](Recorder& to) {
     const glm::mat4& view = request_->camera.world_from_view;
     const KeepMirroredArguments arguments = {
+        {memory_.points.address()},
         {memory_.surfaces.address()},
         {memory_.mirrored.address() + before * sizeof(MirroredCoat)},
+        {memory_.mirrored_emitters.address() + before * sizeof(MirroredEmitters)},
         {memory_.pixel_fog.address()},
         {memory_.filtered.addresses.address()},
         vec3(view[3]),
@@ -129,7 +147,7 @@ void FramePassesVulkan::keep_mirrored() {
         first_traced_pixel(),
         pixels_,
         has_fog(*request_) ? 1u : 0u,
-        0u};
+        reflected_draws()};
     to.run(kernels_.keep_mirrored, arguments, pixels_);
   });
 }
@@ -152,7 +170,7 @@ void FramePassesVulkan::denoise_coats(const DenoiseViewOnDevice& view) {
       of_clearcoats.lobes = r.clearcoat_lobes;
       filter(of_clearcoats, r.clearcoats, r.clearcoat_excess, r.filtered_clearcoats);
     }
-    if (filters_mirrored_coats(*request_)) {
+    if (filters_mirrored_light(*request_)) {
       DenoiseViewOnDevice of_images = view;
       of_images.positions_ws = r.mirrored_positions_ws;
       of_images.normals_ws = r.mirrored_normals_ws;
@@ -160,6 +178,17 @@ void FramePassesVulkan::denoise_coats(const DenoiseViewOnDevice& view) {
       of_images.lobes = r.mirrored_lobes;
       memory_.denoiser.record(to, of_images, {r.mirrored}, geometric_denoising(),
                               r.filtered_mirrored);
+    }
+    if ((mirrored_light_kept() & kKeepsMirroredEmitters) != 0u) {
+      DenoiseViewOnDevice of_shown = view;
+      of_shown.positions_ws = r.mirrored_emitter_positions_ws;
+      of_shown.normals_ws = r.mirrored_emitter_normals_ws;
+      of_shown.depths = r.mirrored_emitter_depths;
+      const FloatArray variance =
+          reflected_draws() > 1 ? r.mirrored_emitter_variance : FloatArray{};
+      memory_.denoiser.record(to, of_shown,
+                              {r.mirrored_emitters, {}, variance, r.mirrored_emitter_levels},
+                              emitter_denoising(), r.filtered_mirrored_emitters);
     }
     if (emitter_draws() == 0) return;
     of_lobes.lobes = r.highlight_lobes;
@@ -205,6 +234,7 @@ void FramePassesVulkan::denoise(float share) {
     });
   }
   if (coats) denoise_coats(by_shading);
+  const uint kept = mirrored_light_kept() & kKeepsMirroredEmitters;
   add("denoise", [=, this](Recorder& to) {
     const AddFilteredArguments arguments = {{memory_.filtered.addresses.address()},
                                             {memory_.layers.address()},
@@ -215,7 +245,8 @@ void FramePassesVulkan::denoise(float share) {
                                             gathered ? 1u : 0u,
                                             coats ? 1u : 0u,
                                             filters_clearcoats(*request_) ? 1u : 0u,
-                                            filters_mirrored_coats(*request_) ? 1u : 0u};
+                                            filters_mirrored_light(*request_) ? 1u : 0u,
+                                            kept != 0u ? 1u : 0u};
     to.run(kernels_.add_filtered, arguments, static_cast<std::uint32_t>(shown.count));
   });
   if (through) denoise_through(by_shading, shown, share);

@@ -95,6 +95,36 @@ void keep_mirrored(const KeptBand& band, const CameraRecord& camera, std::size_t
   });
 }
 
+/// Stores the light of emitters on the surfaces that a band's mirrors show. `pixels`: the number of
+/// traced pixels; 0: that light is not filtered.
+void keep_mirrored_emitters(const KeptBand& band, const CameraRecord& camera, std::size_t pixels,
+                            bool has_variance, MirroredEmitterPixels& kept) {
+  const GBuffer& gbuffer = band.light.gbuffer;
+  kept.resize(pixels, has_variance);
+  if (pixels == 0) return;
+  parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t pixel = band.first + i;
+      kept.albedo[pixel] = vec3(0.0f);
+      if (gbuffer.skips(i)) continue;
+      kept.depths[pixel] = 0.0f;
+      const bool any = gbuffer.hit[i] != 0 && !band.light.coats->mirrored_emitters.empty();
+      if (!any || band.light.coats->mirrored_emitters[i].shown == 0u) continue;
+      const MirroredEmitters& emitters = band.light.coats->mirrored_emitters[i];
+      const vec3& mirror_ws = gbuffer.surfaces[i].position_ws;
+      kept.depths[pixel] =
+          view_depth(camera, mirror_ws) + distance(mirror_ws, emitters.position_ws);
+      kept.positions_ws[pixel] = emitters.position_ws;
+      kept.normals_ws[pixel] = emitters.normal_ws;
+      kept.light[pixel] = emitters.light;
+      kept.levels[pixel] = emitters.level;
+      if (has_variance) kept.variance[pixel] = emitters.variance;
+      kept.albedo[pixel] = shown_weight(gbuffer, band.light.fog, i) * emitters.albedo *
+                           band.light.coats->mirrored[i].mirror_share;
+    }
+  });
+}
+
 /// Stores the light that a band's coats and clearcoats reflect from rays. `pixels`: the number of
 /// traced pixels.
 void keep_all_coats(const KeptBand& band, std::size_t pixels, FilteredPixels& kept) {
@@ -156,6 +186,16 @@ void keep_highlights(const BandToFilter& light, std::size_t first, std::size_t c
 
 }  // namespace
 
+void MirroredEmitterPixels::resize(std::size_t pixels, bool has_variance) {
+  positions_ws.resize(pixels);
+  normals_ws.resize(pixels);
+  depths.resize(pixels);
+  light.resize(pixels);
+  variance.resize(has_variance ? pixels : 0);
+  levels.resize(pixels);
+  albedo.resize(pixels);
+}
+
 void FilteredCoats::resize(std::size_t pixels) {
   light.resize(pixels);
   excess.resize(pixels);
@@ -174,7 +214,10 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
   const bool emitters = !light.direct.emitters.empty(), gathered = light.gathered != nullptr;
   const CameraRecord camera = camera_record(request.camera, 1, 1);
   keep_all_coats({light, first}, count, pixels);
-  keep_mirrored({light, first}, camera, filters_mirrored_coats(request) ? count : 0, pixels);
+  const std::size_t mirrored = filters_mirrored_light(request) ? count : 0;
+  keep_mirrored({light, first}, camera, mirrored, pixels);
+  keep_mirrored_emitters({light, first}, camera, mirrored,
+                         request.settings.reflected_emissive_samples > 1, pixels.mirrored_emitters);
   if (emitters) {
     keep_highlights(light, first, count, pixels);
   } else {

@@ -78,6 +78,21 @@ LAMBENT_FN float filtered_variance(FilteredEmitter emitter, float variance) {
   return emitter.inverse * (emitter.inverse * variance);
 }
 
+/// The light of emitters where a path from a pixel's mirror has hit a surface. `variance`: see
+/// filtered_variance().
+LAMBENT_FN MirroredEmitters mirrored_emitters(vec3 position_ws, vec3 normal_ws,
+                                              FilteredEmitter emitter, float variance,
+                                              CoatPath path) {
+  MirroredEmitters mirrored = {position_ws,
+                               emitter.level,
+                               normal_ws,
+                               filtered_variance(emitter, variance),
+                               emitter.light,
+                               1u,
+                               path.throughput * emitter.albedo};
+  return mirrored;
+}
+
 /// The light of a coat that is filtered apart from its excess. Rounding may make the excess the
 /// larger of the two.
 LAMBENT_FN vec3 without_excess(vec3 light, vec3 excess) {

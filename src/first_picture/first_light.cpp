@@ -5,6 +5,7 @@
 #include <glm/gtc/constants.hpp>
 #include <utility>
 
+#include "first_picture/daylight.h"
 #include "first_picture/lamps.h"
 #include "first_picture/seen.h"
 #include "first_picture/studio.h"
@@ -264,11 +265,10 @@ FirstLight choose_first_light(const World& world, const Camera& camera) {
 }
 
 void adjust_first_sky(Scene& scene) {
-  Environment sky;
-  sky.radiance = kFirstSky * sun_ratio(scene);
-  sky.revision = scene.environment.revision;
-  if (scene.environment.map.width == 0 && scene.environment.radiance == sky.radiance) return;
-  ++sky.revision;
+  const float brightness = sun_ratio(scene);
+  if (is_day_sky(scene.environment, brightness)) return;
+  Environment sky = make_day_sky(brightness);
+  sky.revision = scene.environment.revision + 1;
   scene.environment = std::move(sky);
 }
 
@@ -284,15 +284,12 @@ void set_first_light(FirstLight light, const World& world, const Camera& camera,
     scene.environment = make_studio(front);
     scene.lights = {make_key_light(front)};
   } else if (light == FirstLight::sun) {
-    scene.lights = {make_first_sun(best_sun_way(world, view))};
-    scene.environment = {};
-    scene.environment.radiance = kFirstSky;
+    scene.lights = {make_day_sun(best_sun_way(world, view))};
+    scene.environment = make_day_sky(1.0f);
   } else {
     scene.lights = hang_lamps(world, camera, view);
-    scene.environment = {};
-    if (measure_view_light(world, view).sky_visibility > 0.0f) {
-      scene.environment.radiance = kSkyThroughWindows * kFirstSky;
-    }
+    const bool windows = measure_view_light(world, view).sky_visibility > 0.0f;
+    scene.environment = windows ? make_day_sky(kSkyThroughWindows) : Environment{};
   }
   scene.environment.revision = revision;
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "first_picture/studio.h"
+#include "first_picture/daylight.h"
 #include "first_picture/subject.h"
 #include "first_picture/survey.h"
 #include "lambent/first_picture.h"
@@ -90,7 +90,7 @@ bool covers_sky(const World& dome, const Middle& middle) {
 /// taken for those of a sky that suits it.
 float unlit_factor(const Scene& dome) {
   if (!dome.materials.front().unlit) return 1.0f;
-  return std::max(1.0f, sun_ratio(dome) * luminance(kFirstSky));
+  return std::max(1.0f, sun_ratio(dome) * kDaySkyLuminance);
 }
 
 int columns_for(const Scene& dome) {

@@ -88,21 +88,4 @@ Light make_key_light(const glm::vec3& front_ws) {
   return key;
 }
 
-float sun_ratio(const Scene& scene) {
-  float suns = 0.0f;
-  for (const Light& light : scene.lights) {
-    if (light.type == Light::Type::directional) suns += luminance(light.intensity);
-  }
-  return suns / luminance(kFirstSunIrradiance);
-}
-
-Light make_first_sun(const glm::vec3& direction_ws) {
-  Light sun;
-  sun.name = "sun";
-  sun.type = Light::Type::directional;
-  sun.direction_ws = glm::normalize(direction_ws);
-  sun.intensity = kFirstSunIrradiance;
-  return sun;
-}
-
 }  // namespace lambent

@@ -41,19 +41,22 @@ const uint kStageOwnMirror = 2u;
 /// It does what kStageOwnMirror says, and is at a MirroredCoat. What that reflects of direct light
 /// is stored in CoatRay::mirrored.
 const uint kStageAtMirroredCoat = 3u;
+/// It left the pixel's mirror, and mirrors without a base alone have reflected it since. Nothing is
+/// stored apart.
+const uint kStageFurtherMirror = 4u;
 /// It came through surfaces alone. Nothing is stored apart. Where one is rough, it samples lights
 /// behind it.
-const uint kStageThroughGlass = 4u;
+const uint kStageThroughGlass = 5u;
 /// It came through glass to the first opaque surface. Nothing is stored apart.
-const uint kStageBehindGlass = 5u;
+const uint kStageBehindGlass = 6u;
 /// It left the coat of that surface, and has hit nothing but glass since. All light is stored
 /// apart.
-const uint kStageCoatBehindGlass = 6u;
+const uint kStageCoatBehindGlass = 7u;
 /// It left the coat of that surface, and has hit something else than glass. All light is stored
 /// apart.
-const uint kStageBeyondCoat = 7u;
+const uint kStageBeyondCoat = 8u;
 /// It left a MirroredCoat. All light is stored in CoatRay::mirrored.
-const uint kStageBeyondMirroredCoat = 8u;
+const uint kStageBeyondMirroredCoat = 9u;
 
 // Values of CoatPath::fork: whether a path splits at glass into a refracted and a reflected branch.
 /// It does not split: at each surface one of the two directions is chosen, see glass_choice().
@@ -85,6 +88,10 @@ LAMBENT_DEVICE_ARRAY(CoatPathArray, CoatPath, 4)
 // Rays that meet mirrors later on their way count wider ones, see is_mirror().
 const float kMirrorAlpha = 0.01f;
 
+// Widest lobe of a mirror behind which the light of emitters is filtered, that of roughness 0.05.
+// Rays of wider ones end too far apart to show one picture, and each pixel reflects several.
+const float kSharpMirrorAlpha = 0.0025f;
+
 /// A coat that a pixel's mirror shows. A mirrored picture of it is as noisy as the coat itself:
 /// what it reflects is filtered over its own lobe, as if the surface stood behind the mirror.
 struct MirroredCoat {
@@ -96,12 +103,34 @@ struct MirroredCoat {
   // These are filled in after all rays of the pixel were traced
   vec3 light;                   ///< What it reflects by rays, as the mirror shows it [W/(m^2 sr)].
   float inverse_seen_distance;  ///< See seen_inverse_distance() [1/m].
+  vec3 mirror_share;  ///< Share of its ray's radiance that the pixel reflects, whatever it shows.
 };
 LAMBENT_DEVICE_ARRAY(MirroredCoatArray, MirroredCoat, 4)
 
 /// The record of a pixel whose mirror shows no such coat.
 LAMBENT_FN MirroredCoat no_mirrored_coat() {
-  MirroredCoat none = {vec3(0.0f), vec3(0.0f), 0.0f, vec3(0.0f), -1.0f, vec3(0.0f), 0.0f};
+  MirroredCoat none = {vec3(0.0f), vec3(0.0f), 0.0f, vec3(0.0f),
+                       -1.0f,      vec3(0.0f), 0.0f, vec3(0.0f)};
+  return none;
+}
+
+/// The diffuse light of emitters on the opaque surface that a pixel's mirror shows, in other
+/// mirrors or not. Few samples find it: it is filtered over that surface, like the light of
+/// surfaces that the camera sees.
+struct MirroredEmitters {
+  vec3 position_ws;  ///< Of the surface.
+  float level;       ///< See FilteredEmitter, as of `light`.
+  vec3 normal_ws;    ///< Of the surface.
+  float variance;    ///< Of the luminance of `light`.
+  vec3 light;        ///< Of emitters, in the form in which it is filtered [W/(m^2 sr)].
+  uint shown;        ///< 1: the mirror shows such a surface; 0: it does not.
+  vec3 albedo;       ///< Factor from the filtered light to the radiance of the pixel's ray.
+};
+LAMBENT_DEVICE_ARRAY(MirroredEmittersArray, MirroredEmitters, 4)
+
+/// The record of a pixel whose mirror shows no such surface.
+LAMBENT_FN MirroredEmitters no_mirrored_emitters() {
+  MirroredEmitters none = {vec3(0.0f), 0.0f, vec3(0.0f), 0.0f, vec3(0.0f), 0u, vec3(0.0f)};
   return none;
 }
 

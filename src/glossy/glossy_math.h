@@ -248,12 +248,15 @@ LAMBENT_FN vec3 reflected_own_ray(CoatReceiver at) {
   return alone.light + alone.emission;
 }
 
-/// The record of the coat that a receiver's mirror shows, with its light and its mirror image.
+/// The record of the coat that a receiver's mirror shows, with its light and its mirror image, and
+/// the mirror's own share.
 /// `share`: that of the mirror's light which comes from rays.
 LAMBENT_FN MirroredCoat mirrored_light(CoatReceiver at, float share, MirroredCoat coat) {
+  at.own.apart = vec3(0.0f);
+  at.own.radiance = vec3(1.0f);
+  coat.mirror_share = share * reflected_own_ray(at);
   if (coat.alpha <= 0.0f) return coat;
   at.own.radiance = at.own.mirrored;
-  at.own.apart = vec3(0.0f);
   coat.light = share * reflected_own_ray(at);
   vec3 tint = specular_albedo(at.reflectance, dot(at.lobe.normal_ws, at.lobe.to_viewer_ws));
   coat.albedo *= share * max(tint, vec3(kLeastFilteredAlbedo));

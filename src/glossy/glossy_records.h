@@ -19,6 +19,14 @@ struct PathList {
   UintArray count;   ///< One number: the length of the list.
 };
 
+// Bits of CoatReuseArguments::has; CoatRaysArguments::keeps has those of mirrors.
+const uint kReflectsSky = 1u;             ///< `sky` is added.
+const uint kFindsGuides = 2u;             ///< `guides` are written.
+const uint kKeepsMirrored = 4u;           ///< `mirrored` is brought up to date.
+const uint kKeepsOwn = 8u;                ///< `own` is written.
+const uint kOrthographic = 16u;           ///< The camera is orthographic.
+const uint kKeepsMirroredEmitters = 32u;  ///< MirroredEmitters are stored.
+
 /// Draws the specular rays of pixels.
 struct CoatRaysArguments {
   LitPointArray points;
@@ -32,9 +40,10 @@ struct CoatRaysArguments {
   uint sample_index;
   uint seed;
   uint emitter_samples;        ///< Samples of the pixels' own direct light.
-  uint keeps_mirrored;         ///< 1: what coats in mirrors reflect is stored separately.
-  MirroredCoatArray mirrored;  ///< Written where keeps_mirrored is 1.
-  OwnRayLightArray own;        ///< Read where `ray` is not 0.
+  uint keeps;                  ///< kKeepsMirrored, kKeepsMirroredEmitters: of what mirrors show.
+  MirroredCoatArray mirrored;  ///< Written where kKeepsMirrored is set.
+  MirroredEmittersArray mirrored_emitters;  ///< Written where kKeepsMirroredEmitters is set.
+  OwnRayLightArray own;                     ///< Read where `ray` is not 0.
   uint ray;  ///< Number of the rays; from 1 on, only pixels with needs_further_rays() have one.
   uint padding;
 };
@@ -135,13 +144,6 @@ struct ClearcoatLightArguments {
   uint count;
   uint has_rays;
 };
-
-// Bits of CoatReuseArguments::has.
-const uint kReflectsSky = 1u;    ///< `sky` is added.
-const uint kFindsGuides = 2u;    ///< `guides` are written.
-const uint kKeepsMirrored = 4u;  ///< `mirrored` is brought up to date.
-const uint kKeepsOwn = 8u;       ///< `own` is written.
-const uint kOrthographic = 16u;  ///< The camera is orthographic.
 
 /// Computes the light that the band's pixels reflect from the rays around them.
 struct CoatReuseArguments {

@@ -146,6 +146,15 @@ LAMBENT_FN void meet_mirrored_coat(Transmission through, Reflectance surface, Co
   path.stage = kStageAtMirroredCoat;
 }
 
+/// Whether a path's hit is the opaque surface that the pixel's mirror shows, for MirroredEmitters.
+/// Call it before the path goes on.
+LAMBENT_FN bool is_in_own_mirror(CoatPath path, Transmission through, Reflectance surface) {
+  bool own = path.stage == kStageOwnMirror || path.stage == kStageAtMirroredCoat ||
+             path.stage == kStageFurtherMirror;
+  bool sharp = path.alpha <= kSharpMirrorAlpha;
+  return own && sharp && !is_transmissive(through) && !has_no_base(surface);
+}
+
 /// Adds direct light at a path's hit. What a coat in the pixel's mirror reflects of it is stored
 /// with the rest of its light.
 LAMBENT_FN void add_direct_light(CoatPath path, vec3 diffuse, vec3 specular,
@@ -223,6 +232,7 @@ LAMBENT_FN NextRay extend_by_reflection(Reflectance coat, CoatShares shares, vec
   bool from_clearcoat = u.x < chance;
   vec3 lobe_normal_ws = normal_ws;
   float share = shares.coat;
+  bool has_base = !has_no_base(coat);
   if (from_clearcoat) {
     u.x /= chance;
     share = shares.clearcoat / chance;
@@ -241,8 +251,11 @@ LAMBENT_FN NextRay extend_by_reflection(Reflectance coat, CoatShares shares, vec
   path.alpha = coat.alpha;
   // Only the coat's light is filtered over the coat's lobe
   bool filtered = path.stage == kStageBehindGlass && !from_clearcoat;
+  bool in_mirror = path.stage == kStageOwnMirror || path.stage == kStageFurtherMirror;
   if (path.stage == kStageAtMirroredCoat && !from_clearcoat) {
     path.stage = kStageBeyondMirroredCoat;
+  } else if (in_mirror && coat.alpha <= kSharpMirrorAlpha && !has_base) {
+    path.stage = kStageFurtherMirror;
   } else if (path.stage <= kStageBehindGlass) {
     path.stage = filtered ? kStageCoatBehindGlass : kStageOther;
   }

@@ -92,8 +92,11 @@ void PathIntegrator::add_punctual(const Vertex& vertex, float u, Lighting& light
     left -= share;
     if (left < 0.0f) break;
   }
-  lighting.add({picked.to_light, picked.distance, picked.irradiance * (total / picked_importance),
-                false, true});
+  // Lights often lie on a surface of their lamp, which is not in their way
+  const float offset = glm::distance(vertex.ray_origin(), vertex.position_ws);
+  const float end = std::max(before_hit(picked.distance - offset), 0.0f);
+  lighting.add(
+      {picked.to_light, end, picked.irradiance * (total / picked_importance), false, true});
 }
 
 void PathIntegrator::add_emissive(const Vertex& vertex, const glm::vec3& u,

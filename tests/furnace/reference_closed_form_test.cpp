@@ -109,6 +109,23 @@ TEST(ReferenceClosedForm, PointLightFollowsTheInverseSquare) {
   EXPECT_NEAR(irradiance(world, point, 4).mean.x, 30.0f / 25.0f * 0.6f, 1e-5f);
 }
 
+TEST(ReferenceClosedForm, PointLightOnASurfaceOfItsLampLightsTheRoom) {
+  // Around places with other rounding of coordinates: both sides of the cap are lit
+  for (const float height : {3.0f, 3.3f, 2.77f}) {
+    Scene scene;
+    scene.materials = {lambert(glm::vec3(0.5f))};
+    add(scene, quad({-0.1f, height, -0.1f}, {0.0f, 0.0f, 0.2f}, {0.2f, 0.0f, 0.0f}, 0));
+    scene.lights = {point_light(glm::vec3(30.0f), {0.0f, height, 0.0f})};
+    const World world(scene);
+    const float distance = std::hypot(4.0f, height);
+    const float expected = 30.0f * height / (distance * distance * distance);
+    const SurfacePoint below{{4.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
+    EXPECT_NEAR(irradiance(world, below, 4).mean.x, expected, 1e-4f) << height;
+    const SurfacePoint above{{4.0f, 2.0f * height, 0.0f}, {0.0f, -1.0f, 0.0f}};
+    EXPECT_NEAR(irradiance(world, above, 4).mean.x, expected, 1e-4f) << height;
+  }
+}
+
 TEST(ReferenceClosedForm, SpotLightFadesBetweenItsCones) {
   Scene scene;
   scene.materials = {lambert(glm::vec3(0.5f))};

@@ -12,7 +12,7 @@
 #include "support/box_behind_a_pane.h"
 #include "support/field_scenes.h"
 #include "support/hand_made.h"
-#include "support/metal_in_a_mirror.h"
+#include "support/wall_in_a_mirror.h"
 
 namespace lambent::filtered_frame_test {
 namespace {
@@ -127,8 +127,9 @@ Scene varnished_cornell() {
 }
 
 /// Expects that the filter takes noise off the layer "glossy" of one sample, but no light.
-void expect_less_noise_in_reflections(const LitStage& box) {
+void expect_less_noise_in_reflections(const LitStage& box, int reflected_emissive_samples = 16) {
   FrameSettings filtered = of_quality(Quality::high);
+  filtered.reflected_emissive_samples = reflected_emissive_samples;
   filtered.samples = 1;  // through the middle of pixels, whatever the seed
   filtered.gather_rays = 0;
   FrameSettings raw = filtered;
@@ -203,8 +204,14 @@ TEST(FilteredFrame, ShowsRoughClearcoatsWithLessNoiseAndAllOfTheirLight) {
 TEST(FilteredFrame, ShowsRoughCoatsInMirrorsWithLessNoiseAndAllOfTheirLight) {
   // Rays of neighbours are reused in the second one
   for (const float roughness : {0.0f, 0.09f}) {
-    expect_less_noise_in_reflections(LitStage(test::metal_in_a_mirror(roughness)));
+    expect_less_noise_in_reflections(LitStage(test::wall_in_a_mirror(roughness, 1.0f)));
   }
+}
+
+TEST(FilteredFrame, ShowsWhatLampsLightInMirrorsWithLessNoiseAndAllOfTheirLight) {
+  Scene scene = test::wall_in_a_mirror(0.0f, 0.0f);
+  scene.materials[1].lambert = true;
+  expect_less_noise_in_reflections(LitStage(std::move(scene)), 1);
 }
 
 // Small metal balls, whose lobes point away from each other from pixel to pixel.

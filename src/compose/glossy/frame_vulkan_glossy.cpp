@@ -29,6 +29,31 @@ bool FramePassesVulkan::filters_coats() const {
          has_coats(request_->world.scene());
 }
 
+std::uint32_t FramePassesVulkan::mirrored_light_kept() const {
+  if (!filters_mirrored_light(*request_)) return 0u;
+  return kKeepsMirrored | (reflected_draws() > 0 ? kKeepsMirroredEmitters : 0u);
+}
+
+/// Stores the light of emitters on what pixels' mirrors show apart, for paths in the list `from`.
+void FramePassesVulkan::keep_mirrored_emitters(Recorder& to, std::uint32_t paths,
+                                               const PathBuffers& from) {
+  FrameMemory& m = memory_;
+  const KeepMirroredEmittersArguments arguments = {{world_.scene().address()},
+                                                   {m.path_points.address()},
+                                                   {m.path_surfaces.address()},
+                                                   {from.paths.address()},
+                                                   {from.pixels.address()},
+                                                   {m.path_diffuse.address()},
+                                                   {m.path_specular.address()},
+                                                   {m.path_drawn.address()},
+                                                   {m.path_drawn_specular.address()},
+                                                   {m.path_drawn_squares.address()},
+                                                   {m.mirrored_emitters.address()},
+                                                   paths,
+                                                   reflected_draws()};
+  to.run(kernels_.keep_mirrored_emitters, arguments, paths);
+}
+
 void FramePassesVulkan::glossy() {
   light_clearcoats();
   if (traces_coats(*request_) && has_coats(request_->world.scene())) {
@@ -151,6 +176,7 @@ CoatRaysArguments FramePassesVulkan::coat_rays_of(std::uint32_t first, std::uint
           static_cast<uint>(settings.emissive_samples),
           0u,
           {m.mirrored.address()},
+          {m.mirrored_emitters.address()},
           {m.own_rays.address()},
           0u,
           0u};
@@ -159,23 +185,28 @@ CoatRaysArguments FramePassesVulkan::coat_rays_of(std::uint32_t first, std::uint
 bool FramePassesVulkan::trace_coats(const Band& around, CoatKind kind, const Buffer& sky) {
   const std::uint32_t seed = kind == CoatKind::clearcoat ? clearcoat_seed(request_->settings.seed)
                                                          : request_->settings.seed;
-  const bool keeps_mirrored = kind == CoatKind::coat && filters_mirrored_coats(*request_);
+  const uint keeps = kind == CoatKind::coat ? mirrored_light_kept() : 0u;
   const auto width = static_cast<std::uint32_t>(request_->settings.width);
   const int first_row = around.first_row;
   const std::uint32_t pixels = static_cast<std::uint32_t>(around.rows) * width;
   const std::uint32_t first_index = static_cast<std::uint32_t>(first_row) * width;
-  reserve<MirroredCoat>(keeps_mirrored ? pixels : 0, "coats in mirrors", memory_.mirrored);
+  reserve<MirroredCoat>(keeps != 0u ? pixels : 0, "coats in mirrors", memory_.mirrored);
+  keeps_mirrored_emitters_ = (keeps & kKeepsMirroredEmitters) != 0u;
+  reserve<MirroredEmitters>(keeps_mirrored_emitters_ ? pixels : 0, "emitters' light in mirrors",
+                            memory_.mirrored_emitters);
   add("glossy", [=, this](Recorder& to) {
     to.fill(memory_.path_lists[0].count, 0u);
     to.barrier();
     CoatRaysArguments drawn = coat_rays_of(0, pixels, first_row, seed);
-    drawn.keeps_mirrored = keeps_mirrored ? 1u : 0u;
+    drawn.keeps = keeps;
     to.run(kernels_.coat_rays, drawn, pixels);
   });
   path_pass_ = "glossy";
   path_seed_ = seed;
-  if (!follow_all(1, first_index, sample_)) return false;
-  reuse_coat_rays(around, sky, keeps_mirrored);
+  const bool any = follow_all(1, first_index, sample_);
+  keeps_mirrored_emitters_ = false;
+  if (!any) return false;
+  reuse_coat_rays(around, sky, keeps);
   for (std::uint32_t ray = 1; ray < static_cast<std::uint32_t>(request_->settings.coat_rays);
        ++ray) {
     if (!add_further_rays(around, seed, ray)) break;
@@ -235,7 +266,8 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
   reserve<vec3>(paths, "diffuse light of paths", m.path_diffuse);
   reserve<vec3>(paths, "specular light of paths", m.path_specular);
   const bool keeps_behind = keeps_behind_, samples_behind = samples_behind_;
-  const bool apart = keeps_behind && draws_behind_glass() > 0;
+  const bool keeps_mirrored = keeps_mirrored_emitters_;
+  const bool apart = keeps_mirrored || (keeps_behind && reflected_draws() > 0);
   const std::size_t drawn = apart ? paths : 0;
   reserve<vec3>(drawn, "drawn light of paths", m.path_drawn);
   reserve<float>(drawn, "squares of drawn light of paths", m.path_drawn_squares);
@@ -290,6 +322,10 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
       to.barrier();
       keep_behind(to, paths, from);
     }
+    if (keeps_mirrored) {
+      to.barrier();
+      keep_mirrored_emitters(to, paths, from);
+    }
   });
   if (has_field) {
     look_up(path_pass_, *request_->sources.field, m.path_queries, 2 * paths, CorrectionUse::smooth,
@@ -320,16 +356,14 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
   });
 }
 
-void FramePassesVulkan::reuse_coat_rays(const Band& around, const Buffer& sky,
-                                        bool keeps_mirrored) {
+void FramePassesVulkan::reuse_coat_rays(const Band& around, const Buffer& sky, uint keeps) {
   reserve<vec4>(pixels_, "coats", memory_.coats);
   const bool filters = request_->settings.denoise;
   reserve<CoatGuide>(filters ? pixels_ : 0, "guides of coats", memory_.coat_guides);
   const bool keeps_own = request_->settings.coat_rays > 1;
   reserve<OwnRayLight>(keeps_own ? pixels_ : 0, "light of own rays", memory_.own_rays);
   const uint has = (world_.scene().has_bright_sky() ? kReflectsSky : 0u) |
-                   (filters ? kFindsGuides : 0u) | (keeps_mirrored ? kKeepsMirrored : 0u) |
-                   (keeps_own ? kKeepsOwn : 0u) |
+                   (filters ? kFindsGuides : 0u) | keeps | (keeps_own ? kKeepsOwn : 0u) |
                    (request_->camera.orthographic ? kOrthographic : 0u);
   add("glossy", [=, this, &sky](Recorder& to) {
     const FrameMemory& m = memory_;

@@ -101,7 +101,7 @@ std::uint32_t FramePassesVulkan::path_step(std::uint32_t bounce) const {
   return pack_path_step(bounce, sample_, static_cast<uint>(samples));
 }
 
-std::uint32_t FramePassesVulkan::draws_behind_glass() const {
+std::uint32_t FramePassesVulkan::reflected_draws() const {
   if (!world_.scene().has_light_tree()) return 0;
   return static_cast<std::uint32_t>(request_->settings.reflected_emissive_samples);
 }
@@ -166,7 +166,7 @@ void FramePassesVulkan::keep_behind(Recorder& to, std::uint32_t paths, const Pat
                                          vec3(request_->camera.world_from_view[3]),
                                          first_traced_pixel(),
                                          paths,
-                                         draws_behind_glass(),
+                                         reflected_draws(),
                                          world_.scene().has_bright_sky() ? 1u : 0u,
                                          0u};
   to.run(kernels_.keep_behind, arguments, paths);
@@ -190,7 +190,7 @@ void FramePassesVulkan::keep_through() {
 void FramePassesVulkan::denoise_through(const DenoiseViewOnDevice& view, const ShownPixels& shown,
                                         float share) {
   const std::uint32_t pixels = view.width * view.height;
-  const std::uint32_t draws = draws_behind_glass();
+  const std::uint32_t draws = reflected_draws();
   const bool blurs = shows_rough_glass(*request_);
   add("denoise", [=, this](Recorder& to) {
     const SeenThroughRecord& r = memory_.through.record;

@@ -7,6 +7,7 @@
 
 #include "compose/frame_tasks.h"
 #include "compose/glossy/path_rays.h"
+#include "compose/pixel_math.h"
 #include "core/parallel.h"
 #include "raytracing/glass/absorption.h"
 #include "raytracing/world_access.h"
@@ -64,6 +65,7 @@ void Glossy::start(const GlossySettings& settings, int first_row, std::size_t pi
   paths_.start(pixels);
   coat_distances_.assign(pixels, -1.0f);
   mirrored_.clear();
+  mirrored_emitters_.clear();
 }
 
 /// Draws the ray of pixel `i` of `seen`, whose place is among the paths. Returns whether there is
@@ -99,7 +101,10 @@ std::uint64_t Glossy::send_rays(const GlossySettings& settings, std::span<const 
   std::size_t pixels = 0;
   for (const GlossyRows& rows : around) pixels += rows.pixels.size();
   start(settings, around.front().first_row, pixels, 0u);
-  if (keeps_mirrored) mirrored_.assign(pixels, no_mirrored_coat());
+  if (keeps_mirrored) {
+    mirrored_.assign(pixels, no_mirrored_coat());
+    mirrored_emitters_.assign(pixels, no_mirrored_emitters());
+  }
 
   const auto rows_between = static_cast<uint>(settings.frame.glossy_rows);
   const auto sample = static_cast<uint>(settings.sample);
@@ -261,12 +266,35 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
   return going_on;
 }
 
+/// Stores the light of emitters on the surfaces that pixels' mirrors show apart. Elsewhere, it
+/// joins the other direct light.
+void Glossy::keep_mirrored_emitters() {
+  if (direct_.emitters.empty()) return;
+  parallel_chunks(met_.size(), kCostlyPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (met_.hit[i] == 0) continue;
+      const Surface& surface = met_.surfaces[i];
+      direct_.specular[i] += direct_.emitter_specular[i];
+      if (!is_in_own_mirror(paths_.paths[i], surface.transmission, surface.reflectance)) {
+        direct_.diffuse[i] += direct_.emitters[i];
+        continue;
+      }
+      const FilteredEmitter emitter =
+          filtered_emitter(surface.reflectance, direct_.emitters[i], direct_.unoccluded[i]);
+      const float variance = direct_.emitter_variance.empty() ? 0.0f : direct_.emitter_variance[i];
+      mirrored_emitters_[i] = mirrored_emitters(surface.position_ws, surface.normal_ws, emitter,
+                                                variance, paths_.paths[i]);
+    }
+  });
+}
+
 /// Traces `going` paths to their end, from bounce `first_bounce` on; returns the number of rays
 /// traced.
 std::uint64_t Glossy::follow_all(const GlossySettings& settings, std::uint64_t going,
                                  std::uint32_t first_bounce, const KeptBehind& kept) {
   FrameSettings lighting = settings.frame;
-  lighting.denoise = kept.seen != nullptr;
+  const bool keeps_mirrored = !mirrored_emitters_.empty();
+  lighting.denoise = kept.seen != nullptr || keeps_mirrored;
   lighting.emissive_samples = settings.frame.reflected_emissive_samples;
   std::uint64_t traced = 0;
   for (std::uint32_t bounce = first_bounce; going > 0 && bounce <= kMaxPathVertices; ++bounce) {
@@ -275,6 +303,7 @@ std::uint64_t Glossy::follow_all(const GlossySettings& settings, std::uint64_t g
     traced += shade_direct(settings.world, met_, lighting, {first_row_, 0},
                            static_cast<int>(coat_salt(salt_, bounce)), false, direct_);
     if (kept.seen != nullptr) keep_behind(settings, kept);
+    if (keeps_mirrored) keep_mirrored_emitters();
     if (!forks_.paths.empty()) split_paths(settings, bounce);
     going = light_hits(settings, bounce);
   }
@@ -285,7 +314,7 @@ std::uint64_t Glossy::reflect(const GlossySettings& settings, std::span<const Gl
                               const GlossyRows& band, bool keeps_mirrored, CoatLight& light) {
   const std::uint64_t going = send_rays(settings, around, keeps_mirrored);
   const std::uint64_t traced = follow_all(settings, going, 1, {});
-  reuse_.reflect(settings, around, band, rays_, mirrored_, light);
+  reuse_.reflect(settings, around, band, rays_, {mirrored_, mirrored_emitters_}, light);
   return traced + add_further_rays(settings, band, light);
 }
 
@@ -300,7 +329,7 @@ GlossySettings glossy_settings(const FrameRequest& request, const FrameSettings&
           request.round.first};
 }
 
-bool filters_mirrored_coats(const FrameRequest& request) {
+bool filters_mirrored_light(const FrameRequest& request) {
   if (!request.settings.denoise || !traces_coats(request)) return false;
   return std::ranges::any_of(request.world.scene().materials, [](const Material& material) {
     const bool textured = material.metallic_roughness_texture.texture >= 0;
@@ -335,7 +364,7 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
   const GlossyRows own{pixels, band.first_row};
   const GlossyRows around[] = {
       {memory.above, above.first_row}, own, {memory.below, below.first_row}};
-  const bool keeps_mirrored = kind == CoatKind::coat && filters_mirrored_coats(request);
+  const bool keeps_mirrored = kind == CoatKind::coat && filters_mirrored_light(request);
   traced += memory.coats.reflect(glossy_settings(request, drawing, sample), around, own,
                                  keeps_mirrored, light);
   for (std::size_t i = 0; i < sky.size(); ++i) {

@@ -62,6 +62,7 @@ class Glossy {
                            std::uint32_t first_bounce, const KeptBehind& kept);
   void split_paths(const GlossySettings& settings, std::uint32_t bounce);
   void keep_behind(const GlossySettings& settings, const KeptBehind& kept);
+  void keep_mirrored_emitters();
   std::uint64_t send_rays(const GlossySettings& settings, std::span<const GlossyRows> around,
                           bool keeps_mirrored);
   bool draw_ray(const GlossySettings& settings, const GBuffer& seen, std::size_t i, vec2 u,
@@ -84,9 +85,10 @@ class Glossy {
   int first_row_ = 0;
   std::vector<CoatRay> rays_;
   Paths paths_, forks_;  // the paths being traced, and the reflected branches to be traced later
-  std::vector<MirroredCoat> mirrored_;  // empty where these are not kept
-  std::vector<float> coat_distances_;   // TransmittedLight::coat_distances
-  GBuffer met_;                         // the paths' hits
+  std::vector<MirroredCoat> mirrored_;               // empty where these are not kept
+  std::vector<MirroredEmitters> mirrored_emitters_;  // likewise
+  std::vector<float> coat_distances_;                // TransmittedLight::coat_distances
+  GBuffer met_;                                      // the paths' hits
   ReflectedLight direct_;
   std::vector<FieldQuery> queries_;
   std::vector<std::size_t> asked_;  // the queries' pixels
@@ -129,8 +131,9 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
                            const GBuffer& pixels, std::span<const glm::vec3> sky,
                            GlossyMemory& memory, CoatLight& light);
 
-/// Whether what coats that mirrors show reflect is filtered, see MirroredCoat.
-bool filters_mirrored_coats(const FrameRequest& request);
+/// Whether what coats that mirrors show reflect is filtered, and the light of emitters there; see
+/// MirroredCoat and MirroredEmitters.
+bool filters_mirrored_light(const FrameRequest& request);
 
 /// Whether the light of clearcoats from rays is filtered, at pixels with is_filtered_clearcoat().
 bool filters_clearcoats(const FrameRequest& request);

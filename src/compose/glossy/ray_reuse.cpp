@@ -96,7 +96,7 @@ void RayReuse::lay_out(const GlossySettings& settings, std::span<const GlossyRow
 
 void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
                        const GlossyRows& band, std::span<const CoatRay> rays,
-                       std::span<const MirroredCoat> mirrored, CoatLight& reflected) {
+                       const InMirrors& in_mirrors, CoatLight& reflected) {
   lay_out(settings, around, rays);
   const int width = settings.frame.width;
   const int first_row = around.front().first_row;
@@ -104,11 +104,14 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
   reflected.light.assign(pixels.size(), vec4(0.0f));
   reflected.guides.assign(settings.frame.denoise ? pixels.size() : 0, {vec3(0.0f), 0.0f});
   reflected.own.assign(settings.frame.coat_rays > 1 ? pixels.size() : 0, {vec3(0.0f), 0.0f});
-  reflected.mirrored.assign(mirrored.empty() ? 0 : pixels.size(), no_mirrored_coat());
+  const bool keeps_mirrored = !in_mirrors.coats.empty();
+  reflected.mirrored.assign(keeps_mirrored ? pixels.size() : 0, no_mirrored_coat());
+  reflected.mirrored_emitters.assign(keeps_mirrored ? pixels.size() : 0, no_mirrored_emitters());
   parallel_chunks(pixels.size() / width, 1, [&](std::size_t begin, std::size_t) {
     const int y = band.first_row + static_cast<int>(begin);
     SeenAround<CoatRay> seen{rays, first_row, {width, settings.frame.height}};
-    SeenAround<MirroredCoat> in_mirrors{mirrored, first_row, {width, settings.frame.height}};
+    SeenAround<MirroredCoat> coats_seen{
+        in_mirrors.coats, first_row, {width, settings.frame.height}};
     std::vector<CoatReceiver> receivers;
     std::vector<int> places;
     RowPlanes asked, sums;
@@ -131,13 +134,14 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
       const ReflectedRays found = reflected_rays(receivers[k], sums_of(sums, 0, places[k]));
       reflected.light[i] = share * light_by_rays(found.light);
       if (!reflected.own.empty()) reflected.own[i] = {found.own, share * found.own_share};
-      if (!mirrored.empty()) {
+      if (keeps_mirrored) {
         const std::size_t place = static_cast<std::size_t>(y - first_row) * width + places[k];
         MirroredCoat& coat = reflected.mirrored[i];
-        coat = mirrored_light(receivers[k], share, mirrored[place]);
+        coat = mirrored_light(receivers[k], share, in_mirrors.coats[place]);
+        reflected.mirrored_emitters[i] = in_mirrors.emitters[place];
         if (coat.alpha > 0.0f) {
-          coat.inverse_seen_distance = in_mirrors.seen_inverse_distance(
-              in_mirrors, {places[k], y}, static_cast<uint>(settings.sample), 1u);
+          coat.inverse_seen_distance = coats_seen.seen_inverse_distance(
+              coats_seen, {places[k], y}, static_cast<uint>(settings.sample), 1u);
         }
       }
       if (!settings.frame.denoise) continue;

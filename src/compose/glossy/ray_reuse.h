@@ -38,6 +38,8 @@ struct CoatLight {
   /// The coats that mirrors show. `light` does not include theirs. Empty where that is not kept
   /// separately.
   std::vector<MirroredCoat> mirrored;
+  /// The light of emitters on the surfaces that mirrors show; likewise.
+  std::vector<MirroredEmitters> mirrored_emitters;
   std::vector<OwnRayLight> own;  ///< Empty where pixels have one ray.
 
   bool empty() const { return light.empty(); }
@@ -45,8 +47,15 @@ struct CoatLight {
     light.clear();
     guides.clear();
     mirrored.clear();
+    mirrored_emitters.clear();
     own.clear();
   }
+};
+
+/// What the mirrors of some pixels show; empty where that is not kept separately.
+struct InMirrors {
+  std::span<const MirroredCoat> coats;
+  std::span<const MirroredEmitters> emitters;
 };
 
 /// The specular lobe of a pixel.
@@ -60,11 +69,10 @@ CoatReceiver receiver_of(const GlossySettings& settings, const GBuffer& pixels, 
 class RayReuse {
  public:
   /// Computes the light of `band`'s pixels, see Glossy::reflect, from the rays of all pixels
-  /// `around`. `mirrored`: the coats that these pixels' mirrors show; empty where they are not
-  /// kept.
+  /// `around`. `in_mirrors`: of these pixels.
   void reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
-               const GlossyRows& band, std::span<const CoatRay> rays,
-               std::span<const MirroredCoat> mirrored, CoatLight& reflected);
+               const GlossyRows& band, std::span<const CoatRay> rays, const InMirrors& in_mirrors,
+               CoatLight& reflected);
 
  private:
   void lay_out(const GlossySettings& settings, std::span<const GlossyRows> around,

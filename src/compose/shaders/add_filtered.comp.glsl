@@ -43,6 +43,12 @@ void main() {
   if (args.mirrored != 0u) {
     show_coat(i, pixels.mirrored_lobes, pixels.mirrored_albedo, pixels.filtered_mirrored, layers);
   }
+  if (args.mirrored_emitters != 0u && pixels.mirrored_emitter_depths.at[i] > 0.0f) {
+    vec3 glossy = args.share * pixels.mirrored_emitter_albedo.at[i] *
+                  pixels.filtered_mirrored_emitters.at[i];
+    layers.glossy += glossy;
+    layers.all += glossy;
+  }
   if (args.gathered != 0u && args.pixels.at[0].received_weight.at[i] != 0.0f) {
     vec3 irradiance = args.share * args.pixels.at[0].filtered_gathered.at[i];
     vec3 indirect = args.pixels.at[0].indirect_albedo.at[i] * irradiance;

@@ -13,8 +13,11 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
   args.coat_rays.at[i] = no_coat_ray(infinity());
-  bool keeps_mirrored = args.keeps_mirrored != 0u;
+  bool keeps_mirrored = (args.keeps & kKeepsMirrored) != 0u;
   if (keeps_mirrored) args.mirrored.at[i] = no_mirrored_coat();
+  if ((args.keeps & kKeepsMirroredEmitters) != 0u) {
+    args.mirrored_emitters.at[i] = no_mirrored_emitters();
+  }
   PixelSurfaceRecord surface = args.surfaces.at[i];
   uvec2 pixel = uvec2(i % args.width, args.first_row + i / args.width);
   vec2 u;

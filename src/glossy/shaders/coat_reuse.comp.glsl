@@ -87,6 +87,7 @@ void main() {
     args.mirrored.at[i].normal_ws = coat.normal_ws;
     args.mirrored.at[i].albedo = coat.albedo;
     args.mirrored.at[i].light = coat.light;
+    args.mirrored.at[i].mirror_share = coat.mirror_share;
     if (coat.alpha > 0.0f) {
       args.mirrored.at[i].inverse_seen_distance =
           seen_inverse_distance(InMirrors(args), pixel, args.sample_index, 1u);
