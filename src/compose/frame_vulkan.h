@@ -343,6 +343,7 @@ class FramePassesVulkan final : public FramePasses {
   std::uint32_t emitter_draws() const;
   bool filters_coats() const;
   void keep_mirrored();
+  void make_room_for_mirrors(std::size_t pixels);
   void begin_filter();
   void keep_pixels();
   /// First pixel of the band among the traced pixels.

@@ -15,6 +15,40 @@ std::uint32_t FramePassesVulkan::emitter_draws() const {
   return draws ? static_cast<std::uint32_t>(request_->settings.emissive_samples) : 0;
 }
 
+/// Makes room for the light of what mirrors show, of so many pixels.
+void FramePassesVulkan::make_room_for_mirrors(std::size_t pixels) {
+  FilteredBuffers& f = memory_.filtered;
+  FilteredPixelsRecord& r = f.record;
+  const auto room = [&](std::size_t count, std::size_t bytes, Buffer& buffer) {
+    buffer.reserve(device_, count * bytes, "pixels to filter");
+    return buffer.address();
+  };
+  const std::size_t mirrored = filters_mirrored_light(*request_) ? pixels : 0;
+  r.mirrored.address = room(mirrored, sizeof(vec3), f.mirrored);
+  r.mirrored_albedo.address = room(mirrored, sizeof(vec3), f.mirrored_albedo);
+  r.mirrored_positions_ws.address = room(mirrored, sizeof(vec3), f.mirrored_positions_ws);
+  r.mirrored_normals_ws.address = room(mirrored, sizeof(vec3), f.mirrored_normals_ws);
+  r.mirrored_depths.address = room(mirrored, sizeof(float), f.mirrored_depths);
+  r.mirrored_lobes.address = room(mirrored, sizeof(LobeGuide), f.mirrored_lobes);
+  r.filtered_mirrored.address = room(mirrored, sizeof(vec3), f.filtered_mirrored);
+  const std::size_t lit_in_mirrors =
+      (mirrored_light_kept() & kKeepsMirroredEmitters) != 0u ? pixels : 0;
+  r.mirrored_emitters.address = room(lit_in_mirrors, sizeof(vec3), f.mirrored_emitters);
+  r.mirrored_emitter_variance.address =
+      room(lit_in_mirrors, sizeof(float), f.mirrored_emitter_variance);
+  r.mirrored_emitter_levels.address =
+      room(lit_in_mirrors, sizeof(float), f.mirrored_emitter_levels);
+  r.mirrored_emitter_albedo.address = room(lit_in_mirrors, sizeof(vec3), f.mirrored_emitter_albedo);
+  r.mirrored_emitter_positions_ws.address =
+      room(lit_in_mirrors, sizeof(vec3), f.mirrored_emitter_positions_ws);
+  r.mirrored_emitter_normals_ws.address =
+      room(lit_in_mirrors, sizeof(vec3), f.mirrored_emitter_normals_ws);
+  r.mirrored_emitter_depths.address =
+      room(lit_in_mirrors, sizeof(float), f.mirrored_emitter_depths);
+  r.filtered_mirrored_emitters.address =
+      room(lit_in_mirrors, sizeof(vec3), f.filtered_mirrored_emitters);
+}
+
 /// Makes room for the light to be filtered, and writes the addresses for kernels.
 void FramePassesVulkan::begin_filter() {
   const FrameSettings& settings = request_->settings;
@@ -55,30 +89,7 @@ void FramePassesVulkan::begin_filter() {
   r.clearcoat_normals_ws.address = room(clearcoated, sizeof(vec3), f.clearcoat_normals_ws);
   r.clearcoat_lobes.address = room(clearcoated, sizeof(LobeGuide), f.clearcoat_lobes);
   r.filtered_clearcoats.address = room(clearcoated, sizeof(vec3), f.filtered_clearcoats);
-  const std::size_t mirrored = filters_mirrored_light(*request_) ? pixels : 0;
-  r.mirrored.address = room(mirrored, sizeof(vec3), f.mirrored);
-  r.mirrored_albedo.address = room(mirrored, sizeof(vec3), f.mirrored_albedo);
-  r.mirrored_positions_ws.address = room(mirrored, sizeof(vec3), f.mirrored_positions_ws);
-  r.mirrored_normals_ws.address = room(mirrored, sizeof(vec3), f.mirrored_normals_ws);
-  r.mirrored_depths.address = room(mirrored, sizeof(float), f.mirrored_depths);
-  r.mirrored_lobes.address = room(mirrored, sizeof(LobeGuide), f.mirrored_lobes);
-  r.filtered_mirrored.address = room(mirrored, sizeof(vec3), f.filtered_mirrored);
-  const std::size_t lit_in_mirrors =
-      (mirrored_light_kept() & kKeepsMirroredEmitters) != 0u ? pixels : 0;
-  r.mirrored_emitters.address = room(lit_in_mirrors, sizeof(vec3), f.mirrored_emitters);
-  r.mirrored_emitter_variance.address =
-      room(lit_in_mirrors, sizeof(float), f.mirrored_emitter_variance);
-  r.mirrored_emitter_levels.address =
-      room(lit_in_mirrors, sizeof(float), f.mirrored_emitter_levels);
-  r.mirrored_emitter_albedo.address = room(lit_in_mirrors, sizeof(vec3), f.mirrored_emitter_albedo);
-  r.mirrored_emitter_positions_ws.address =
-      room(lit_in_mirrors, sizeof(vec3), f.mirrored_emitter_positions_ws);
-  r.mirrored_emitter_normals_ws.address =
-      room(lit_in_mirrors, sizeof(vec3), f.mirrored_emitter_normals_ws);
-  r.mirrored_emitter_depths.address =
-      room(lit_in_mirrors, sizeof(float), f.mirrored_emitter_depths);
-  r.filtered_mirrored_emitters.address =
-      room(lit_in_mirrors, sizeof(vec3), f.filtered_mirrored_emitters);
+  make_room_for_mirrors(pixels);
   r.highlights.address = room(lit, sizeof(vec3), f.highlights);
   r.highlight_albedo.address = room(lit, sizeof(vec3), f.highlight_albedo);
   r.highlight_lobes.address = room(lit, sizeof(LobeGuide), f.highlight_lobes);

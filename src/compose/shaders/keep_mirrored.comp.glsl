@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stores what the coats that a band's mirrors show reflect, and the light of emitters there, for the
-// filter; see keep_pixels.cpp.
+// Stores what the coats that a band's mirrors show reflect, and the light of emitters there, for
+// the filter; see keep_pixels.cpp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/filter_records.h"
