@@ -26,11 +26,15 @@ namespace {
 // elevation than this do not count.
 constexpr int kDomeRays = 128;
 constexpr float kMinSineOfElevation = 0.2f;
-// Share of them in which it must emit: it may have small gaps, and black spots.
+// Share of them in which it must emit, or from kSkyDistance on be there: it may have small gaps,
+// and black spots, and a sky of stars is mostly black.
 constexpr float kMinDome = 0.95f;
 // Its least distance from the middle of the scene, over the distance within which half of the
 // scene's triangles are: where a dome is nearer, its light differs from place to place.
 constexpr float kMinDistance = 5.0f;
+// From this distance on [m], it is a sky whatever it surrounds, such as a terrain that reaches far
+// towards it: no lamp is so large.
+constexpr float kSkyDistance = 100.0f;
 // A dome's diagonal is at least this share of the scene's, which the ground below may exceed.
 constexpr float kMinSize = 0.2f;
 // Columns of the map: as many as the dome's texture has, within these. The edge of half a dome
@@ -73,15 +77,17 @@ glm::vec3 emission_at(const World& dome, const Ray& ray, const Hit& hit) {
   return hit.missed() ? glm::vec3(0.0f) : surface_at(dome.scene(), ray, hit).emission;
 }
 
-/// Whether the dome emits in nearly all directions above the horizon, from far away.
+/// Whether the dome is in nearly all directions above the horizon, far away.
 bool covers_sky(const World& dome, const Middle& middle) {
   std::vector<Ray> rays = rays_around(middle.position_ws, kDomeRays);
   std::erase_if(rays, [](const Ray& ray) { return ray.direction.y < kMinSineOfElevation; });
   const std::vector<Hit> hits = trace(dome, rays);
+  const float least = std::min(kMinDistance * middle.reach, kSkyDistance);
   float covered = 0.0f;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (hits[i].distance < kMinDistance * middle.reach) return false;
-    if (emission_at(dome, rays[i], hits[i]) != glm::vec3(0.0f)) covered += 1.0f;
+    if (hits[i].distance < least) return false;
+    const bool there = !hits[i].missed() && hits[i].distance >= kSkyDistance;
+    if (there || emission_at(dome, rays[i], hits[i]) != glm::vec3(0.0f)) covered += 1.0f;
   }
   return covered >= kMinDome * static_cast<float>(rays.size());
 }
