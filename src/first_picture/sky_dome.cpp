@@ -13,6 +13,7 @@
 #include "lambent/first_picture.h"
 #include "raytracing/boxes.h"
 #include "raytracing/surface.h"
+#include "raytracing/trace_rays.h"
 #include "raytracing/world_access.h"
 #include "scene/attributes.h"
 #include "scene/latitude_longitude.h"
