@@ -107,7 +107,9 @@ void keep_mirrored_emitters(const KeptBand& band, const CameraRecord& camera, st
       const std::size_t pixel = band.first + i;
       kept.albedo[pixel] = vec3(0.0f);
       if (gbuffer.skips(i)) continue;
-      kept.depths[pixel] = 0.0f;
+      kept.depths[pixel] = kept.levels[pixel] = 0.0f;
+      kept.light[pixel] = vec3(0.0f);
+      if (has_variance) kept.variance[pixel] = 0.0f;
       const bool any = gbuffer.hit[i] != 0 && !band.light.coats->mirrored_emitters.empty();
       if (!any || band.light.coats->mirrored_emitters[i].shown == 0u) continue;
       const MirroredEmitters& emitters = band.light.coats->mirrored_emitters[i];

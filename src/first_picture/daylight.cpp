@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "first_picture/daylight.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "scene/latitude_longitude.h"
@@ -11,8 +12,8 @@ namespace {
 
 // Size of the sky's map [texels]: a row is 1.4 degrees high.
 constexpr int kSkyColumns = 256, kSkyRows = 128;
-// A clear sky is brighter at the horizon than above by 1 - exp(-kGradation / sin(elevation)), but
-// for the light around the sun: type 11, "white-blue sky with distinct solar corona", of the CIE's
+// A clear sky's luminance is in proportion to 1 - exp(-kGradation / sin(elevation)), but for the
+// light around the sun: type 11, "white-blue sky with distinct solar corona", of the CIE's
 // standard skies (ISO 15469:2004, table 1). Bluer types have a horizon that is over twice as bright
 // as all of the map in the mean; that part would be sampled as a light.
 constexpr float kGradation = 0.55f;
@@ -92,8 +93,9 @@ Environment make_day_sky(float brightness) {
   return sky;
 }
 
-bool is_day_sky(const Environment& environment, float brightness) {
-  return environment.radiance == glm::vec3(brightness) && environment.rotation == 0.0f &&
+bool is_day_sky(const Environment& environment) {
+  const glm::vec3& brightness = environment.radiance;
+  return brightness == glm::vec3(brightness.x) && environment.rotation == 0.0f &&
          environment.map.width == kSkyColumns && environment.map.pixels == day_map().pixels;
 }
 

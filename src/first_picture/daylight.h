@@ -22,8 +22,8 @@ inline constexpr float kDaySkyLuminance = 1.25f;
 /// suits suns in all directions.
 Environment make_day_sky(float brightness);
 
-/// Whether an environment is what make_day_sky() returns, but for its revision.
-bool is_day_sky(const Environment& environment, float brightness);
+/// Whether an environment is what make_day_sky() returns, of any brightness and revision.
+bool is_day_sky(const Environment& environment);
 
 /// Irradiance of a scene's suns over that of make_day_sun(), by luminance: 0 where it has none. So
 /// much brighter than make_day_sky(1) is a sky that suits them.

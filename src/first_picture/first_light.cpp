@@ -266,10 +266,13 @@ FirstLight choose_first_light(const World& world, const Camera& camera) {
 
 void adjust_first_sky(Scene& scene) {
   const float brightness = sun_ratio(scene);
-  if (is_day_sky(scene.environment, brightness)) return;
-  Environment sky = make_day_sky(brightness);
-  sky.revision = scene.environment.revision + 1;
-  scene.environment = std::move(sky);
+  Environment& sky = scene.environment;
+  const bool is_ours = is_day_sky(sky);
+  if (is_ours && sky.radiance.x == brightness) return;
+  const std::uint32_t revision = sky.revision + 1;
+  if (!is_ours) sky = make_day_sky(brightness);
+  sky.radiance = glm::vec3(brightness);
+  sky.revision = revision;
 }
 
 void set_first_light(FirstLight light, const World& world, const Camera& camera, Scene& scene) {

@@ -27,11 +27,12 @@ namespace {
 // elevation than this do not count.
 constexpr int kDomeRays = 128;
 constexpr float kMinSineOfElevation = 0.2f;
-// Share of them in which it must emit, or from kSkyDistance on be there: it may have small gaps,
-// and black spots, and a sky of stars is mostly black.
+// Share of them in which it must emit: it may have small gaps, and black spots. What reflects
+// nothing need only be there, from kSkyDistance on: a sky of stars is mostly black.
 constexpr float kMinDome = 0.95f;
-// Its least distance from the middle of the scene, over the distance within which half of the
-// scene's triangles are: where a dome is nearer, its light differs from place to place.
+// Its distance from the middle of the scene is at least so many times that within which half of the
+// scene's triangles are, or kSkyDistance: where a dome is nearer, its light differs from place to
+// place.
 constexpr float kMinDistance = 5.0f;
 // From this distance on [m], it is a sky whatever it surrounds, such as a terrain that reaches far
 // towards it: no lamp is so large.
@@ -84,10 +85,12 @@ bool covers_sky(const World& dome, const Middle& middle) {
   std::erase_if(rays, [](const Ray& ray) { return ray.direction.y < kMinSineOfElevation; });
   const std::vector<Hit> hits = trace(dome, rays);
   const float least = std::min(kMinDistance * middle.reach, kSkyDistance);
+  const Material& material = dome.scene().materials.front();
+  const bool is_black = material.unlit || glm::vec3(material.base_color) == glm::vec3(0.0f);
   float covered = 0.0f;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits[i].distance < least) return false;
-    const bool there = !hits[i].missed() && hits[i].distance >= kSkyDistance;
+    const bool there = is_black && !hits[i].missed() && hits[i].distance >= kSkyDistance;
     if (there || emission_at(dome, rays[i], hits[i]) != glm::vec3(0.0f)) covered += 1.0f;
   }
   return covered >= kMinDome * static_cast<float>(rays.size());

@@ -41,8 +41,8 @@ const uint kStageOwnMirror = 2u;
 /// It does what kStageOwnMirror says, and is at a MirroredCoat. What that reflects of direct light
 /// is stored in CoatRay::mirrored.
 const uint kStageAtMirroredCoat = 3u;
-/// It left the pixel's mirror, and mirrors without a base alone have reflected it since. Nothing is
-/// stored apart.
+/// It left the pixel's mirror, and sharp coats of surfaces without a base alone have reflected it
+/// since. Where it ends, MirroredEmitters are stored, as of the two stages above.
 const uint kStageFurtherMirror = 4u;
 /// It came through surfaces alone. Nothing is stored apart. Where one is rough, it samples lights
 /// behind it.
@@ -103,7 +103,7 @@ struct MirroredCoat {
   // These are filled in after all rays of the pixel were traced
   vec3 light;                   ///< What it reflects by rays, as the mirror shows it [W/(m^2 sr)].
   float inverse_seen_distance;  ///< See seen_inverse_distance() [1/m].
-  vec3 mirror_share;  ///< Share of its ray's radiance that the pixel reflects, whatever it shows.
+  vec3 mirror_share;  ///< Share of its ray's radiance that the pixel reflects, for any alpha.
 };
 LAMBENT_DEVICE_ARRAY(MirroredCoatArray, MirroredCoat, 4)
 
@@ -119,10 +119,10 @@ LAMBENT_FN MirroredCoat no_mirrored_coat() {
 /// surfaces that the camera sees.
 struct MirroredEmitters {
   vec3 position_ws;  ///< Of the surface.
-  float level;       ///< See FilteredEmitter, as of `light`.
+  float level;       ///< FilteredEmitter::level.
   vec3 normal_ws;    ///< Of the surface.
   float variance;    ///< Of the luminance of `light`.
-  vec3 light;        ///< Of emitters, in the form in which it is filtered [W/(m^2 sr)].
+  vec3 light;        ///< FilteredEmitter::light [W/(m^2 sr)].
   uint shown;        ///< 1: the mirror shows such a surface; 0: it does not.
   vec3 albedo;       ///< Factor from the filtered light to the radiance of the pixel's ray.
 };

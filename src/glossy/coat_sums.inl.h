@@ -117,9 +117,12 @@ LAMBENT_REAL_FN void add_coat_ray(CoatReceiver at, CoatLobe from, CoatRay ray, R
                                   LAMBENT_INOUT(CoatSums) sums) {
   Real cosine = dot(at.lobe.geometric_normal_ws, from.geometric_normal_ws);
   Real off_plane = dot(at.lobe.geometric_normal_ws, from.position_ws - at.lobe.position_ws);
-  // Rays of mirrors do not include what is stored in CoatRay::mirrored
-  Real here = select(at.lobe.squared_alpha > kMirrorAlpha * kMirrorAlpha, 1.0f, 0.0f);
-  Real there = select(from.squared_alpha > kMirrorAlpha * kMirrorAlpha, 1.0f, 0.0f);
+  // Rays of mirrors do not include what is stored in CoatRay::mirrored, nor those of sharp ones
+  // what is in MirroredEmitters
+  Real here = select(at.lobe.squared_alpha > kMirrorAlpha * kMirrorAlpha, 1.0f, 0.0f) +
+              select(at.lobe.squared_alpha > kSharpMirrorAlpha * kSharpMirrorAlpha, 1.0f, 0.0f);
+  Real there = select(from.squared_alpha > kMirrorAlpha * kMirrorAlpha, 1.0f, 0.0f) +
+               select(from.squared_alpha > kSharpMirrorAlpha * kSharpMirrorAlpha, 1.0f, 0.0f);
   Real alike = 1.0f - (here - there) * (here - there);
   Real similar = alike * weight * relit_weight(cosine, off_plane * at.inverse_tolerance);
   Real pixel = select(similar >= kLeastPixelWeight, similar, 0.0f);

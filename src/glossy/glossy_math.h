@@ -249,8 +249,7 @@ LAMBENT_FN vec3 reflected_own_ray(CoatReceiver at) {
 }
 
 /// The record of the coat that a receiver's mirror shows, with its light and its mirror image, and
-/// the mirror's own share.
-/// `share`: that of the mirror's light which comes from rays.
+/// the mirror's own share. `share`: that of the mirror's light which comes from rays.
 LAMBENT_FN MirroredCoat mirrored_light(CoatReceiver at, float share, MirroredCoat coat) {
   at.own.apart = vec3(0.0f);
   at.own.radiance = vec3(1.0f);

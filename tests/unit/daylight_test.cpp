@@ -51,11 +51,13 @@ TEST(DaySky, HasNoPartThatIsSampledAsALight) {
 TEST(DaySky, IsRecognized) {
   Environment sky = make_day_sky(0.5f);
   sky.revision = 7;
-  EXPECT_TRUE(is_day_sky(sky, 0.5f));
-  EXPECT_FALSE(is_day_sky(sky, 0.6f));
+  EXPECT_TRUE(is_day_sky(sky));
+  Environment tinted = sky;
+  tinted.radiance.g = 0.6f;
+  EXPECT_FALSE(is_day_sky(tinted));
   sky.map.at(3, 3)[1] += 1.0f;
-  EXPECT_FALSE(is_day_sky(sky, 0.5f));
-  EXPECT_FALSE(is_day_sky({}, 0.0f));
+  EXPECT_FALSE(is_day_sky(sky));
+  EXPECT_FALSE(is_day_sky({}));
 }
 
 }  // namespace

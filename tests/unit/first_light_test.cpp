@@ -108,7 +108,7 @@ TEST(FirstLight, IsASkyInProportionWhereSunsShineOutOfTheVoid) {
   const Camera camera = first_view(world).value().camera;
   set_first_light(FirstLight::sky, world, camera, scene);
   EXPECT_EQ(scene.lights.size(), 1u);
-  EXPECT_TRUE(is_day_sky(scene.environment, sun_ratio(scene)));
+  EXPECT_TRUE(is_day_sky(scene.environment));
   EXPECT_NEAR(scene.environment.radiance.b, 0.2f, 1e-4f);
   EXPECT_EQ(choose_first_light(World(scene), camera), FirstLight::scene) << "it has a sky now";
 

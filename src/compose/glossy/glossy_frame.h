@@ -45,8 +45,8 @@ class Glossy {
  public:
   /// Computes the light of the coats of `band`'s pixels from rays. `around` lists the rows from
   /// glossy_halo() above the band to as many below it, within the picture and including the band,
-  /// all with their coat_shares. `keeps_mirrored`: CoatLight::mirrored is filled in. Returns the
-  /// number of rays traced.
+  /// all with their coat_shares. `keeps_mirrored`: what mirrors show is stored apart in CoatLight.
+  /// Returns the number of rays traced.
   std::uint64_t reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
                         const GlossyRows& band, bool keeps_mirrored, CoatLight& light);
 
@@ -86,7 +86,7 @@ class Glossy {
   std::vector<CoatRay> rays_;
   Paths paths_, forks_;  // the paths being traced, and the reflected branches to be traced later
   std::vector<MirroredCoat> mirrored_;               // empty where these are not kept
-  std::vector<MirroredEmitters> mirrored_emitters_;  // likewise
+  std::vector<MirroredEmitters> mirrored_emitters_;  // empty where these are not kept
   std::vector<float> coat_distances_;                // TransmittedLight::coat_distances
   GBuffer met_;                                      // the paths' hits
   ReflectedLight direct_;

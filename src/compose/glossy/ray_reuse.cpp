@@ -96,7 +96,7 @@ void RayReuse::lay_out(const GlossySettings& settings, std::span<const GlossyRow
 
 void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
                        const GlossyRows& band, std::span<const CoatRay> rays,
-                       const InMirrors& in_mirrors, CoatLight& reflected) {
+                       const MirroredLight& in_mirrors, CoatLight& reflected) {
   lay_out(settings, around, rays);
   const int width = settings.frame.width;
   const int first_row = around.front().first_row;

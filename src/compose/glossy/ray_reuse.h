@@ -38,7 +38,8 @@ struct CoatLight {
   /// The coats that mirrors show. `light` does not include theirs. Empty where that is not kept
   /// separately.
   std::vector<MirroredCoat> mirrored;
-  /// The light of emitters on the surfaces that mirrors show; likewise.
+  /// The light of emitters on the surfaces that mirrors show, without which `light` is. Empty where
+  /// `mirrored` is.
   std::vector<MirroredEmitters> mirrored_emitters;
   std::vector<OwnRayLight> own;  ///< Empty where pixels have one ray.
 
@@ -53,7 +54,7 @@ struct CoatLight {
 };
 
 /// What the mirrors of some pixels show; empty where that is not kept separately.
-struct InMirrors {
+struct MirroredLight {
   std::span<const MirroredCoat> coats;
   std::span<const MirroredEmitters> emitters;
 };
@@ -69,10 +70,10 @@ CoatReceiver receiver_of(const GlossySettings& settings, const GBuffer& pixels, 
 class RayReuse {
  public:
   /// Computes the light of `band`'s pixels, see Glossy::reflect, from the rays of all pixels
-  /// `around`. `in_mirrors`: of these pixels.
+  /// `around`. `in_mirrors`: what the mirrors of these pixels show.
   void reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
-               const GlossyRows& band, std::span<const CoatRay> rays, const InMirrors& in_mirrors,
-               CoatLight& reflected);
+               const GlossyRows& band, std::span<const CoatRay> rays,
+               const MirroredLight& in_mirrors, CoatLight& reflected);
 
  private:
   void lay_out(const GlossySettings& settings, std::span<const GlossyRows> around,

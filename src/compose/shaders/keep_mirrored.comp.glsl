@@ -26,6 +26,9 @@ void keep_emitters(uint i, uint pixel, PixelSurfaceRecord surface) {
     return;
   }
   args.pixels.at[0].mirrored_emitter_depths.at[pixel] = 0.0f;
+  args.pixels.at[0].mirrored_emitter_levels.at[pixel] = 0.0f;
+  args.pixels.at[0].mirrored_emitters.at[pixel] = vec3(0.0f);
+  if (args.draws > 1u) args.pixels.at[0].mirrored_emitter_variance.at[pixel] = 0.0f;
   MirroredEmitters emitters = args.emitters.at[i];
   if ((surface.flags & kSurfaceMissed) != 0u || emitters.shown == 0u) return;
   vec3 mirror_ws = args.points.at[i].position_ws;
@@ -60,8 +63,7 @@ void main() {
   args.pixels.at[0].mirrored_albedo.at[pixel] = shown_weight(i, surface) * coat.albedo;
   args.pixels.at[0].mirrored_positions_ws.at[pixel] = coat.position_ws;
   args.pixels.at[0].mirrored_normals_ws.at[pixel] = coat.normal_ws;
-  args.pixels.at[0].mirrored_depths.at[pixel] =
-      view_depth(coat.position_ws);
+  args.pixels.at[0].mirrored_depths.at[pixel] = view_depth(coat.position_ws);
   args.pixels.at[0].mirrored_lobes.at[pixel] =
       lobe_guide(coat.normal_ws, surface.to_viewer_ws, coat.alpha, coat.inverse_seen_distance);
 }
