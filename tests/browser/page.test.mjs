@@ -73,11 +73,21 @@ async function rest() {
   return meansOfElement(page, '#picture');
 }
 
+/// One more picture may still be on its way when the others have come to rest: it is given 5 s.
 async function countsAreEqual(when) {
-  const { received, pictures } = await shown();
-  const made = (await server.stats()).pictures;
-  checks.that(sent > 0 && Number(received) === sent && Number(pictures) === sent && made === sent,
-    `${when}: ${made} pictures made, ${sent} sent, ${received} received, ${pictures} decoded and shown`);
+  const end = Date.now() + 5000;
+  for (;;) {
+    const { received, pictures } = await shown();
+    const made = (await server.stats()).pictures;
+    const equal = sent > 0 && Number(received) === sent && Number(pictures) === sent && made === sent;
+    if (!equal && Date.now() < end) {
+      await new Promise((resolve) => setTimeout(resolve, 200));
+      continue;
+    }
+    checks.that(equal,
+      `${when}: ${made} pictures made, ${sent} sent, ${received} received, ${pictures} decoded and shown`);
+    return;
+  }
 }
 
 /// What the program renders with the server's settings.
