@@ -17,6 +17,8 @@ constexpr int kSkyColumns = 256, kSkyRows = 128;
 // standard skies (ISO 15469:2004, table 1). Bluer types have a horizon that is over twice as bright
 // as all of the map in the mean; that part would be sampled as a light.
 constexpr float kGradation = 0.55f;
+// Least sine of elevation in that formula, whose exponential is 0 long before.
+constexpr float kMinUp = 1e-3f;
 // Colours of the sky above and at the horizon, with a luminance of about 1: as blue as a clear sky,
 // and about 7,500 K.
 constexpr glm::vec3 kZenithColor{0.6f, 1.0f, 2.2f}, kHorizonColor{0.9f, 1.0f, 1.25f};
@@ -28,7 +30,7 @@ constexpr float kHazeAngle = 7.0f;
 
 /// Luminance of the sky at a sine of elevation, over that at the horizon.
 float gradation(float up) {
-  return 1.0f - std::exp(-kGradation / std::max(up, 1e-3f));
+  return 1.0f - std::exp(-kGradation / std::max(up, kMinUp));
 }
 
 /// Radiance of the sky at a sine of elevation of at least 0, over the luminance of the horizon.
