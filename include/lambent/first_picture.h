@@ -72,12 +72,12 @@ void set_first_light(FirstLight light, const World& world, const Camera& camera,
 void adjust_first_sky(Scene& scene);
 
 /// Removes the sky that a scene brings as a mesh: a dome or a box of emissive or unlit triangles
-/// that is far around most of the rest, or 100 m from its middle. As a surface, it would take nearly
-/// all samples of emitters from lamps indoors, stop the light of suns, and stretch the field's grid.
-/// Returns the dome as a scene of its own with the same lights, for sky_of_dome; none where there is
-/// no such mesh, where it moves or does not cover the sky, or where all else is unlit. Its instance
-/// stays, with an empty mesh. Looks at all vertices where any surface emits, and copies the dome's
-/// texture.
+/// that is far around most of the rest, or 100 m from its middle. As a surface, it would take
+/// nearly all samples of emitters from lamps indoors, stop the light of suns, and stretch the
+/// field's grid. Returns the dome as a scene of its own with the same lights, for sky_of_dome; none
+/// where there is no such mesh, where it moves or does not cover the sky, or where all else is
+/// unlit. Its instance stays, with an empty mesh. Looks at all vertices where any surface emits,
+/// and copies the dome's texture.
 std::optional<Scene> take_sky_dome(Scene& scene);
 
 /// A dome's radiance in all directions as seen from `eye_ws`, as a latitude-longitude map with as
