@@ -67,6 +67,22 @@ LAMBENT_FN float kept_by_lookup(float before, float now) {
   return clamp((ratio - kOtherLookup) / (kSameLookup - kOtherLookup), 0.0f, 1.0f);
 }
 
+// Changes of level by less than this share are taken for noise of the field; averages of lookups
+// lag behind others by as much. In a flat lit by a turning sun, the mean over a third of the
+// picture's height changes by 2 % from frame to frame by noise alone.
+const float kSteadyLevel = 0.03f;
+// An average that would have to change by more than this factor is of other light.
+const float kMaxLevelChange = 2.0f;
+
+/// The factor by which an average of lookups follows a change of level. `before`, `now`: the mean
+/// of lookups around, in the average and in this frame [W/m^2].
+LAMBENT_FN float followed_level(float before, float now) {
+  float change = before > 0.0f ? now / before : 1.0f;
+  float steady = 1.0f + kSteadyLevel;
+  float followed = change > 1.0f ? max(change / steady, 1.0f) : min(change * steady, 1.0f);
+  return clamp(followed, 1.0f / kMaxLevelChange, kMaxLevelChange);
+}
+
 // Gathered excess, what a ray brings beyond kBrightestRay times known_level(), comes once in many
 // frames and then lights a whole surface. The average gives each frame this weight, from none on: a
 // first frame that showed it whole would be a flash, too. In a hall whose lamp hangs 3 cm off a

@@ -2,6 +2,7 @@
 #include "compose/history/light_history.h"
 
 #include "compose/frame_tasks.h"
+#include "compose/history/lookup_levels.h"
 #include "compose/motion.h"
 #include "core/parallel.h"
 #include "denoise/history_math.h"
@@ -26,28 +27,45 @@ float luminance_off(const std::vector<vec3>& before, const HistoryTaps& taps, co
   return luminance(now - weighted_sum(before, taps));
 }
 
-/// Averages what a pixel gathers over at most `most` frames, over fewer where its lookup has
-/// changed. Excess is averaged over many frames, and starts anew once lights, materials or the sky
-/// have changed (`relit`). Excess of what moves is shown as it is: where the field lags behind it,
-/// most rays bring more than their lookups.
-void average_gathered(const LightHistory& last, const HistoryTaps& taps, const MostFrames& most,
-                      bool relit, bool moves, std::size_t i, FilteredPixels& pixels,
-                      LightHistory& next) {
+/// The light of previous frames at a pixel.
+struct PixelHistory {
+  std::size_t pixel;
+  const HistoryTaps& taps;
+  vec3 level;  ///< Factor that brings its lookups to the level of this frame.
+};
+
+/// How a pixel's gathered light is averaged.
+struct GatherAverage {
+  MostFrames most;
+  bool changes;  ///< The world changes: lookups, too, are shown averaged.
+  bool relit;    ///< Lights, materials or the sky have changed: excess starts anew.
+  bool moves;    ///< The pixel shows what moves.
+};
+
+/// Averages what a pixel gathers, over fewer frames where its lookup has changed otherwise than
+/// those around it. Excess is averaged over many frames. That of what moves is shown as it is:
+/// where the field lags behind it, most rays bring more than their lookups.
+void average_gathered(const LightHistory& last, const PixelHistory& history,
+                      const GatherAverage& by, FilteredPixels& pixels, LightHistory& next) {
+  const std::size_t i = history.pixel;
+  const HistoryTaps& taps = history.taps;
   vec3& difference = next.differences[i] = pixels.gathered[i] - pixels.looked_up[i];
-  float& looked_up = next.looked_up[i] = luminance(pixels.looked_up[i]);
+  vec3& looked_up = next.looked_up[i] = pixels.looked_up[i];
   float& frames = next.gathered_frames[i] = 1.0f;
+  const vec3 looked_up_before = history.level * weighted_sum(last.looked_up, taps);
   if (is_history(taps)) {
-    const float kept = kept_by_lookup(weighted_sum(last.looked_up, taps), looked_up);
-    frames = averaged_frames(kept * weighted_sum(last.gathered_frames, taps), most.of_gathers);
+    const float kept = kept_by_lookup(luminance(looked_up_before), luminance(looked_up));
+    frames = averaged_frames(kept * weighted_sum(last.gathered_frames, taps), by.most.of_gathers);
   }
   const float off = luminance_off(last.differences, taps, difference);
   average(last.differences, taps, frames, difference);
-  average(last.looked_up, taps, frames, looked_up);
-  const vec3 excess = relit ? vec3(0.0f) : weighted_sum(last.excess, taps);
+  if (frames > 1.0f) looked_up = mix(looked_up_before, looked_up, 1.0f / frames);
+  const vec3 excess = by.relit ? vec3(0.0f) : weighted_sum(last.excess, taps);
   next.excess[i] = averaged_excess(excess, pixels.excess[i]);
-  if (!moves) pixels.excess[i] = next.excess[i];
+  if (!by.moves) pixels.excess[i] = next.excess[i];
+  if (by.changes) pixels.looked_up[i] = looked_up;
   pixels.gathered[i] = pixels.looked_up[i] + difference;
-  average_noise(last.gathered_noise, {i, taps, off, frames, relit},
+  average_noise(last.gathered_noise, {i, taps, off, frames, by.relit},
                 {pixels.gathered_variance, pixels.gathered_history_variance}, next.gathered_noise);
 }
 
@@ -72,7 +90,8 @@ MostFrames most_frames(const FrameAveraging& by, const ChangedLight* changed,
   const vec3 &position_ws = pixels.positions_ws[i], &normal_ws = pixels.geometric_normals_ws[i];
   most.of_emitters =
       std::min(most.of_emitters, changed->frames_of_emitters(position_ws, normal_ws));
-  most.of_gathers = std::min(most.of_gathers, changed->frames_of_gathers(position_ws, normal_ws));
+  most.of_gathers =
+      std::min(most.of_gathers, changed->moved.frames_of_gathers(position_ws, normal_ws));
   return most;
 }
 
@@ -131,6 +150,53 @@ void average_reflections(const FrameAveraging& by, const LightHistory& last, boo
                 last.highlights, next.highlights);
 }
 
+/// Finds the pixels of the previous frame that show a pixel's surface.
+struct PixelFinder {
+  const FrameAveraging& by;
+  const FilteredPixels& pixels;
+  SurfacesSeen before;  ///< Empty: there is no previous frame.
+
+  HistoryTaps taps(std::size_t i) const {
+    if (before.depths.empty() || !(pixels.depths[i] > 0.0f)) return no_history();
+    const PixelMotion motion = camera_motion(by.views, pixels.positions_ws[i]);
+    if (motion.known == 0u) return no_history();
+    const float depth = motion.depth_before;
+    return SurfacesBefore{before}.history_taps(by.size, middle_of(i, by.size) + motion.offset,
+                                               depth, tolerance(i, depth),
+                                               pixels.geometric_normals_ws[i]);
+  }
+  /// Of the depth of a pixel's surface, where it is `depth` away [m].
+  float tolerance(std::size_t i, float depth) const {
+    const CameraRecord& camera = by.views.now;
+    const bool parallel = camera.orthographic != 0u;
+    const vec3 to_viewer =
+        normalize(parallel ? camera.axes[2] : camera.position_ws - pixels.positions_ws[i]);
+    return depth_tolerance(depth, pixel_width_at_depth(camera, depth),
+                           dot(pixels.geometric_normals_ws[i], to_viewer));
+  }
+};
+
+DenoiseView view_of(const FrameAveraging& by, const FilteredPixels& pixels) {
+  return {.width = by.size.x,
+          .height = by.size.y,
+          .positions_ws = pixels.positions_ws,
+          .normals_ws = pixels.geometric_normals_ws,
+          .depths = pixels.depths};
+}
+
+/// Finds how the level of lookups has changed since the previous frames.
+LookupLevels levels_since(const LightHistory& last, const PixelFinder& finder) {
+  const FilteredPixels& pixels = finder.pixels;
+  std::vector<vec3> before(pixels.looked_up.size());
+  parallel_chunks(before.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const HistoryTaps taps = finder.taps(i);
+      before[i] = is_history(taps) ? weighted_sum(last.looked_up, taps) : pixels.looked_up[i];
+    }
+  });
+  return {view_of(finder.by, pixels), before, pixels.looked_up};
+}
+
 }  // namespace
 
 void average_light(const FrameRequest& request, const LightHistory& last, FilteredPixels& pixels,
@@ -145,36 +211,26 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
   const bool relit = changed != nullptr && changed->relit;
   const bool continues =
       (request.light_continues || changed != nullptr) && has_same_light(last, pixels);
-  const CameraRecord& camera = by.views.now;
   shape(pixels, next);
   // Once the world is lit otherwise, most averages begin anew, and neighbours give a better
   // estimate of the noise of a few frames
   const bool has_noise = continues && !relit;
   pixels.gathered_history_variance.resize(has_noise ? next.gathered_noise.shares.size() : 0);
   pixels.emitter_history_variance.resize(has_noise ? next.emitter_noise.shares.size() : 0);
+  const PixelFinder finder{by, pixels, surfaces_before(last, continues)};
+  const bool gathers = !pixels.gathered.empty();
+  const bool changes = continues && changed != nullptr;
+  LookupLevels levels;
+  if (changes && gathers) levels = levels_since(last, finder);
+  const DenoiseView view = view_of(by, pixels);
   parallel_chunks(pixels.depths.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
-    SurfacesBefore before{surfaces_before(last, continues)};
     for (std::size_t i = begin; i < end; ++i) {
-      HistoryTaps taps = no_history();
-      PixelMotion motion = unknown_motion(0.0f);
-      if (continues && pixels.depths[i] > 0.0f) {
-        motion = camera_motion(by.views, pixels.positions_ws[i]);
-      }
-      if (motion.known != 0u) {
-        const vec3 normal_ws = pixels.geometric_normals_ws[i];
-        const bool parallel = camera.orthographic != 0u;
-        const vec3 to_viewer =
-            normalize(parallel ? camera.axes[2] : camera.position_ws - pixels.positions_ws[i]);
-        const float depth = motion.depth_before;
-        taps = before.history_taps(
-            by.size, middle_of(i, by.size) + motion.offset, depth,
-            depth_tolerance(depth, pixel_width_at_depth(camera, depth), dot(normal_ws, to_viewer)),
-            normal_ws);
-      }
+      const HistoryTaps taps = finder.taps(i);
       const MostFrames most = most_frames(by, changed, pixels, i);
-      if (!pixels.gathered.empty()) {
+      if (gathers) {
         const bool moves = by.moved != nullptr && by.moved->contain(pixels.positions_ws[i]);
-        average_gathered(last, taps, most, relit, moves, i, pixels, next);
+        const vec3 level = levels.followed(view, i, finder.tolerance(i, pixels.depths[i]));
+        average_gathered(last, {i, taps, level}, {most, changes, relit, moves}, pixels, next);
       }
       if (!pixels.emitters.empty()) average_emitters(last, taps, most, relit, i, pixels, next);
     }

@@ -19,8 +19,8 @@ struct LightHistory {
   std::vector<glm::vec3> normals_ws;  ///< Geometric normals.
   std::vector<float> depths;
   std::vector<glm::vec3> differences;  ///< Gathered less looked-up light, averaged.
+  std::vector<glm::vec3> looked_up;    ///< The lookups, averaged.
   std::vector<glm::vec3> excess, emitters;
-  std::vector<float> looked_up;  ///< Luminance of the lookups [W/m^2], averaged.
   NoiseHistory gathered_noise, emitter_noise;
   std::vector<float> frames;           ///< Number of frames in a pixel's average of emitters.
   std::vector<float> gathered_frames;  ///< Number of frames in its average of gathered light.

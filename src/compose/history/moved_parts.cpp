@@ -17,10 +17,6 @@ namespace {
 // Most frames over which light is averaged while things move. Their shadows may change bounced
 // light far from them: a third of the old light is left after as many frames.
 constexpr float kMaxFrames = 8.0f;
-// The same where lights, materials or the sky change from frame to frame. The field follows them,
-// and gathered light is averaged as its difference from the field's: three quarters of the variance
-// are gone after as many frames.
-constexpr float kMaxRelitFrames = 4.0f;
 // With more boxes of moving parts than this, two for each one, light is taken to change everywhere:
 // each costs time at every pixel.
 constexpr std::size_t kMaxBoxes = 64;
@@ -141,11 +137,6 @@ float MovedParts::frames_of_lobe(const vec3& position_ws, const LobeGuide& lobe)
   const vec3 shown_ws = position_ws + distance * lobe.mirror_ws;
   return std::min(frames_of_gathers(shown_ws, vec3(0.0f)),
                   frames_of_emitters(shown_ws, vec3(0.0f)));
-}
-
-float ChangedLight::frames_of_gathers(const vec3& position_ws, const vec3& normal_ws) const {
-  const float frames = moved.frames_of_gathers(position_ws, normal_ws);
-  return relit ? std::min(frames, kMaxRelitFrames) : frames;
 }
 
 float ChangedLight::frames_of_emitters(const vec3& position_ws, const vec3& normal_ws) const {

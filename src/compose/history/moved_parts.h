@@ -50,10 +50,8 @@ struct ChangedLight {
   bool relit = false;     ///< Lights, materials or the sky differ.
   bool emitters = false;  ///< What is sampled as emissive surfaces are differs, or its shadows do.
 
-  /// The largest number of frames, >= 1, over which gathered light of a surface may be averaged.
-  float frames_of_gathers(const vec3& position_ws, const vec3& normal_ws) const;
-
-  /// The same for irradiance from emissive surfaces.
+  /// The largest number of frames, >= 1, over which irradiance of a surface from emissive surfaces
+  /// may be averaged.
   float frames_of_emitters(const vec3& position_ws, const vec3& normal_ws) const;
 };
 

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much brighter the field's lookups have become over large parts of the picture.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "compose/history/history_taps.h"
+#include "lambent/denoise.h"
+
+namespace lambent {
+
+/// The change of level of lookups, from an average of previous frames to this frame. While light
+/// moves, the lookups of each frame have noise of their own, about as large as a cell of the
+/// probes' grid. Averages over frames remove it, and what is known of the light over many cells
+/// keeps them from lagging behind.
+class LookupLevels {
+ public:
+  /// Levels that do not change.
+  LookupLevels() = default;
+
+  /// `before` and `now`: lookups at the view's pixels [W/m^2], the average of previous frames and
+  /// those of this frame; both are the same where a pixel has no history.
+  LookupLevels(const DenoiseView& view, std::span<const vec3> before, std::span<const vec3> now);
+
+  /// The factor that brings a pixel's average to the level of this frame, see followed_level(),
+  /// channel by channel, since surfaces of other colours are lit.
+  /// `tolerance`: of its surface's depth [m], see depth_tolerance().
+  vec3 followed(const DenoiseView& view, std::size_t pixel, float tolerance) const;
+
+ private:
+  /// Every step_-th pixel, both ways; lookups vary slowly, and the filter has to reach far.
+  int step_ = 1;
+  ivec2 size_{0};
+  std::vector<vec3> positions_ws_, normals_ws_;
+  std::vector<float> depths_;
+  std::vector<vec3> factors_;
+};
+
+}  // namespace lambent

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// The level of lookups over large parts of the picture, while light moves.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "compose/history/lookup_levels.h"
+#include "lambent/renderer.h"
+#include "support/field_scenes.h"
+
+namespace lambent::lookup_levels_test {
+namespace {
+
+constexpr float kTolerance = 0.05f;  // of depths [m]
+
+/// A wall whose right half is 1 m farther away and faces another way.
+struct TwoWalls {
+  TwoWalls(int width, int height) {
+    const float pixel = 2.0f / static_cast<float>(height);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const bool far = 2 * x >= width;
+        positions_ws.push_back(pixel * vec3(static_cast<float>(x), static_cast<float>(y), 0.0f) -
+                               vec3(0.0f, 0.0f, far ? 1.0f : 0.0f));
+        normals_ws.push_back(far ? normalize(vec3(1.0f, 0.0f, 0.2f)) : vec3(0.0f, 0.0f, 1.0f));
+        depths.push_back(far ? 4.0f : 3.0f);
+      }
+    }
+    view = {.width = width,
+            .height = height,
+            .positions_ws = positions_ws,
+            .normals_ws = normals_ws,
+            .depths = depths};
+  }
+  std::size_t pixel(int x, int y) const { return static_cast<std::size_t>(y * view.width + x); }
+  std::vector<vec3> light(float near, float far) const {
+    std::vector<vec3> all;
+    for (const float depth : depths) all.emplace_back(depth == 4.0f ? far : near);
+    return all;
+  }
+  std::vector<vec3> positions_ws, normals_ws;
+  std::vector<float> depths;
+  DenoiseView view;
+};
+
+TEST(LookupLevels, AreThoseOfAPixelsSurface) {
+  // One size needs each pixel, the other every third
+  for (const ivec2 size : {ivec2(64, 36), ivec2(720, 405)}) {
+    const TwoWalls walls(size.x, size.y);
+    const LookupLevels levels(walls.view, walls.light(1.0f, 2.0f), walls.light(1.5f, 1.6f));
+    const vec3 brighter = levels.followed(walls.view, walls.pixel(size.x / 2 - 1, 10), kTolerance);
+    const vec3 darker = levels.followed(walls.view, walls.pixel(size.x / 2, 10), kTolerance);
+    EXPECT_NEAR(brighter.x, 1.5f / (1.0f + kSteadyLevel), 1e-3f) << size.x;
+    EXPECT_NEAR(darker.z, 0.8f * (1.0f + kSteadyLevel), 1e-3f) << size.x;
+  }
+  const TwoWalls walls(64, 36);
+  EXPECT_EQ(LookupLevels().followed(walls.view, 0, kTolerance), vec3(1.0f));
+}
+
+TEST(LookupLevels, AreNotThoseOfCloudsOfNoise) {
+  const TwoWalls walls(320, 180);
+  std::vector<vec3> before = walls.light(1.0f, 1.0f), now = before;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const auto x = static_cast<float>(i % 320), y = static_cast<float>(i / 320);
+    before[i] *= 1.0f + 0.2f * std::sin(0.35f * x) * std::sin(0.35f * y);
+    now[i] *= 1.0f + 0.2f * std::cos(0.35f * x) * std::cos(0.35f * y);
+  }
+  const LookupLevels levels(walls.view, before, now);
+  for (int x = 0; x < 320; ++x) {
+    EXPECT_EQ(levels.followed(walls.view, walls.pixel(x, 90), kTolerance), vec3(1.0f)) << x;
+  }
+}
+
+TEST(LookupLevels, FollowLargeChangesAlone) {
+  EXPECT_EQ(followed_level(1.0f, 1.02f), 1.0f);
+  EXPECT_EQ(followed_level(1.0f, 0.98f), 1.0f);
+  EXPECT_NEAR(followed_level(2.0f, 3.0f), 1.5f / (1.0f + kSteadyLevel), 1e-6f);
+  EXPECT_EQ(followed_level(1.0f, 50.0f), kMaxLevelChange);
+  EXPECT_EQ(followed_level(1.0f, 0.0f), 1.0f / kMaxLevelChange);
+  EXPECT_EQ(followed_level(0.0f, 0.0f), 1.0f);
+}
+
+/// Irradiance of frames in which a spot's patch of light on a wall moves by 4 cm each.
+struct MovingPatch {
+  static constexpr int kWidth = 64, kHeight = 48, kBlock = 4;
+  using Blocks = std::vector<double>;
+
+  Blocks next() {
+    scene.lights[0].direction_ws = normalize(vec3(-1.0f, 0.0f, 0.01f * moment++));
+    EXPECT_TRUE(world.update());
+    field.update(world);
+    FrameSettings settings = quality_settings(Quality::interactive);
+    settings.width = kWidth;
+    settings.height = kHeight;
+    settings.averaged_frames = 10;
+    const RenderedFrame frame = renderer.render(scene.cameras.at(0), settings).value();
+    return blocks_of(*frame.image.find("irradiance"));
+  }
+  static Blocks blocks_of(const Image& image) {
+    Blocks blocks(kWidth / kBlock * kHeight / kBlock);
+    for (int i = 0; i < kWidth * kHeight; ++i) {
+      const int block = i / kWidth / kBlock * (kWidth / kBlock) + i % kWidth / kBlock;
+      blocks[static_cast<std::size_t>(block)] += image.pixels[static_cast<std::size_t>(3 * i + 1)];
+    }
+    return blocks;
+  }
+
+  Scene scene = make();
+  World world{scene};
+  IrradianceField field = make_field(world);
+  Renderer renderer{world, {.field = &field}};
+  float moment = 0.0f;
+
+  static Scene make() {
+    Scene room = scenes::make("cornell").value();
+    for (Material& material : room.materials) material.emission = vec3(0.0f);
+    Light& spot = room.lights.emplace_back();
+    spot.type = Light::Type::spot;
+    spot.position_ws = {4.0f, 3.0f, 2.0f};
+    spot.intensity = vec3(200.0f);
+    spot.outer_cone_angle = 0.25f;
+    spot.inner_cone_angle = 0.2f;
+    return room;
+  }
+  static IrradianceField make_field(const World& world) {
+    FieldSettings settings;
+    settings.probe_count = ivec3(7);
+    IrradianceField field = *IrradianceField::make(settings, open_bounds(world));
+    for (int i = 0; i < 8; ++i) field.update(world);
+    return field;
+  }
+};
+
+TEST(LookupLevels, KeepWallsCalmWhileLightMoves) {
+  MovingPatch patch;
+  std::vector<MovingPatch::Blocks> frames;
+  for (int i = 0; i < 14; ++i) frames.push_back(patch.next());
+  // Of second differences, to which a steady change adds nothing; the median leaves out edges
+  std::vector<double> changes;
+  for (std::size_t k = 6; k < frames.size(); ++k) {
+    for (std::size_t i = 0; i < frames[k].size(); ++i) {
+      if (frames[k][i] <= 0.0) continue;
+      changes.push_back(std::abs(frames[k][i] - 2.0 * frames[k - 1][i] + frames[k - 2][i]) /
+                        frames[k][i]);
+    }
+  }
+  std::nth_element(changes.begin(), changes.begin() + changes.size() / 2, changes.end());
+  const double median = changes[changes.size() / 2];
+  std::printf("median of second differences over light: %.4f\n", median);
+  EXPECT_LT(median, 0.048);
+}
+
+}  // namespace
+}  // namespace lambent::lookup_levels_test
