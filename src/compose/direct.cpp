@@ -102,7 +102,7 @@ std::uint64_t shade_direct(const World& world, const GBuffer& gbuffer,
   light.emitters.assign(emitters > 0 ? gbuffer.size() : 0, vec3(0.0f));
   light.emitter_specular.assign(emitters > 0 ? gbuffer.size() : 0, vec3(0.0f));
   light.emitter_variance.assign(emitters > 1 ? gbuffer.size() : 0, 0.0f);
-  light.unoccluded.assign(emitters > 0 ? gbuffer.size() : 0, 0.0f);
+  light.unoccluded.assign(emitters > 0 ? gbuffer.size() : 0, vec3(0.0f));
   const bool bright_sky = sky_of(world).has_bright_part() && !gbuffer.coat_shares.empty();
   light.sky.assign(bright_sky ? gbuffer.size() : 0, vec3(0.0f));
   light.sky_in_clearcoats.assign(bright_sky ? gbuffer.size() : 0, vec3(0.0f));

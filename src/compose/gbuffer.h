@@ -93,9 +93,9 @@ struct ReflectedLight {
   /// Variance of the luminance of `emitters` over filtered_albedo(); empty where a pixel has one
   /// sample, which has no variance to measure.
   std::vector<float> emitter_variance;
-  /// Luminance that emitters would send to white Lambert surfaces if nothing were in the way,
+  /// Radiance of white Lambert surfaces under emitters if nothing were in the way,
   /// without noise; empty where `emitters` is.
-  std::vector<float> unoccluded;
+  std::vector<glm::vec3> unoccluded;
   /// What coats and clearcoats whose light comes from rays reflect of the bright part of the sky;
   /// empty where the sky has none.
   std::vector<glm::vec3> sky, sky_in_clearcoats;

@@ -56,19 +56,20 @@ LAMBENT_FN float indirect_share(float gi_share, uint looked_up) {
 
 /// Direct light of emitters in the form in which it is filtered [W/(m^2 sr)].
 struct FilteredEmitter {
-  vec3 light;     ///< Divided by albedo and level.
-  vec3 albedo;    ///< Factor from filtered light to radiance: albedo times level.
+  vec3 light;     ///< Divided by albedo, level and tint.
+  vec3 albedo;    ///< Factor from filtered light to radiance: albedo times level and tint.
   float level;    ///< See filtered_level().
   float inverse;  ///< One over the level; 0 where there is no light.
 };
 
-/// `reflected`: the sampled light, with albedo. `unoccluded`: see filtered_level().
-LAMBENT_FN FilteredEmitter filtered_emitter(Reflectance surface, vec3 reflected, float unoccluded) {
+/// `reflected`: the sampled light, with albedo. `unoccluded`: that of unoccluded_light().
+LAMBENT_FN FilteredEmitter filtered_emitter(Reflectance surface, vec3 reflected, vec3 unoccluded) {
   vec3 albedo = filtered_albedo(surface);
   vec3 found = reflected / albedo;
-  float level = filtered_level(unoccluded, luminance(found));
+  float level = filtered_level(luminance(unoccluded), luminance(found));
+  vec3 tint = filtered_tint(unoccluded);
   float inverse = inverse_level(level);
-  FilteredEmitter filtered = {inverse * found, level * albedo, level, inverse};
+  FilteredEmitter filtered = {inverse * found / tint, level * tint * albedo, level, inverse};
   return filtered;
 }
 

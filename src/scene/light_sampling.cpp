@@ -101,6 +101,13 @@ std::vector<WholeTriangle> find_emissive(const Scene& scene, const std::vector<E
   return found;
 }
 
+// Barycentrics of the points whose mean is the colour of an emitter: its centre, and those of the
+// parts at its corners.
+const glm::vec2 kTintedPoints[] = {{1.0f / 3.0f, 1.0f / 3.0f},
+                                   {1.0f / 6.0f, 1.0f / 6.0f},
+                                   {2.0f / 3.0f, 1.0f / 6.0f},
+                                   {1.0f / 6.0f, 2.0f / 3.0f}};
+
 // Returns how often a triangle is halved, from its share of the total power.
 int halvings_of(double share) {
   int halvings = 0;
@@ -217,6 +224,15 @@ EmitterPick EmissiveTriangles::pick(float u) const {
 glm::vec3 EmissiveTriangles::radiance(const EmitterRecord& emitter, const glm::vec2& barycentrics,
                                       const glm::vec3& direction_ws) const {
   return emitted_radiance(*scene_, emitter, barycentrics, direction_ws);
+}
+
+glm::vec3 EmissiveTriangles::tint(const EmitterRecord& emitter) const {
+  glm::vec3 sum(0.0f);
+  for (const glm::vec2& barycentrics : kTintedPoints) {
+    sum += emission_of(*scene_, emitter, barycentrics).radiance;
+  }
+  const float whole = luminance(sum);
+  return whole > 0.0f ? sum / whole : glm::vec3(1.0f);
 }
 
 float EmissiveTriangles::pdf_area(std::uint32_t instance, std::uint32_t triangle,

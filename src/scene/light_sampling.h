@@ -56,6 +56,9 @@ class EmissiveTriangles {
   glm::vec3 radiance(const EmitterRecord& emitter, const glm::vec2& barycentrics,
                      const glm::vec3& direction_ws) const;
 
+  /// The colour that an entry emits, over its luminance: the mean of a few of its points.
+  glm::vec3 tint(const EmitterRecord& emitter) const;
+
   /// The density [1/m^2] with which `sample` draws a point of a triangle; 0 where it does not emit.
   float pdf_area(std::uint32_t instance, std::uint32_t triangle,
                  const glm::vec2& barycentrics) const;

@@ -5,6 +5,7 @@
 #define LAMBENT_SHARED_DEMODULATE_H
 
 #include "shared/brdf.h"
+#include "shared/color.h"
 
 LAMBENT_BEGIN
 
@@ -33,6 +34,18 @@ LAMBENT_FN float filtered_level(float unoccluded, float light) {
 // Lower levels are rounding errors, where a lamp is just above the horizon, and count as no light:
 // their inverse may overflow.
 const float kLeastFilteredLevel = 1e-30f;
+
+// A channel's least share of the luminance by which light is divided: the colours of lights are
+// means, and single samples may have more of a channel.
+const float kLeastTint = 1.0f / 64.0f;
+
+/// The colour of unoccluded light over its luminance, by which direct light of emitters is divided,
+/// too. The filter takes the unoccluded share of all lamps for the same; where lamps differ in
+/// colour, it would mix these colours otherwise.
+LAMBENT_FN vec3 filtered_tint(vec3 unoccluded) {
+  float whole = luminance(unoccluded);
+  return whole > kLeastFilteredLevel ? max(unoccluded / whole, vec3(kLeastTint)) : vec3(1.0f);
+}
 
 /// One over a level; 0 where there is no light.
 LAMBENT_FN float inverse_level(float level) {

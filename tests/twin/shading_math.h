@@ -169,6 +169,7 @@ LAMBENT_FN void evaluate_lights(LAMBENT_INOUT(RandomStream) random, LAMBENT_INOU
                           0.3f,
                           0.0f,
                           both_sides,
+                          vec3(1.0f),
                           0u};
     PickLobe lobe = {random_direction(random), 0.01f, 0.5f, 0.05f};
     n.importance[both_sides] = min(light_importance(node, point, normal, lobe), 10.0f);

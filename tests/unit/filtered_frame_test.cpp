@@ -245,7 +245,8 @@ TEST(FilteredFrame, LightOfLampsIsANumberHoweverLittleArrives) {
   for (int decade = kFewestDecades; decade <= 0; ++decade) {
     const float unoccluded = std::pow(10.0f, static_cast<float>(decade));
     for (const float found : {0.0f, unoccluded}) {
-      const FilteredEmitter emitter = filtered_emitter(matte, matte.diffuse * found, unoccluded);
+      const FilteredEmitter emitter =
+          filtered_emitter(matte, matte.diffuse * found, vec3(unoccluded));
       EXPECT_TRUE(std::isfinite(emitter.light.x)) << unoccluded << " " << found;
       EXPECT_TRUE(std::isfinite(filtered_variance(emitter, found * found))) << unoccluded;
     }

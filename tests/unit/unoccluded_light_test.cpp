@@ -54,7 +54,7 @@ TEST(UnoccludedLight, FormFactorsOfTrianglesAreThoseThatRaysCount) {
 struct Lit {
   explicit Lit(const Scene& scene) : emissive(scene), tree(scene, emissive) {}
   float at(const vec3& position, const vec3& normal) const {
-    return unoccluded_light(tree, emissive, position, normal);
+    return luminance(unoccluded_light(tree, emissive, position, normal));
   }
   /// The same of each of the tree's lights by itself.
   float of_each(const vec3& position, const vec3& normal) const {

@@ -29,6 +29,7 @@ struct LightCluster {
   Bounds box;  ///< [m]
   FacingCone cone;
   double intensity = 0.0;  ///< [W/sr], luminance.
+  glm::dvec3 color{0.0};   ///< The same in each channel.
   double mean = 0.0;       ///< Mean over all directions [W/sr], luminance.
   bool empty = true;
 
@@ -39,7 +40,8 @@ struct LightCluster {
   double cost() const;
 };
 
-LightCluster cluster_of(const EmitterRecord& emitter, float intensity);
+/// `tint`: of its light, over its luminance.
+LightCluster cluster_of(const EmitterRecord& emitter, float intensity, const glm::vec3& tint);
 LightCluster cluster_of(const LightRecord& light);
 
 /// The tree node of a cluster; its link is not set.

@@ -146,7 +146,7 @@ std::vector<LightCluster> LightTree::clusters_of_lights(const EmissiveTriangles&
   clusters.reserve(emissive.size() + drawn_.size());
   const float whole = emissive.total_power() / kTwoPi;
   for (const EmitterRecord& emitter : emissive.entries()) {
-    clusters.push_back(cluster_of(emitter, emitter.probability * whole));
+    clusters.push_back(cluster_of(emitter, emitter.probability * whole, emissive.tint(emitter)));
   }
   for (const std::uint32_t light : drawn_) clusters.push_back(cluster_of(lights_[light]));
   return clusters;

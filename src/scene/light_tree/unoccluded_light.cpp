@@ -2,7 +2,6 @@
 #include "scene/light_tree/unoccluded_light.h"
 
 #include "scene/light_tree/unoccluded_math.h"
-#include "shared/color.h"
 
 namespace lambent {
 namespace {
@@ -35,8 +34,8 @@ const LightRecord& fetch_light(const LitTree& of, uint light) {
 
 }  // namespace
 
-float unoccluded_light(const LightTree& tree, const EmissiveTriangles& emissive,
-                       const glm::vec3& position_ws, const glm::vec3& normal_ws) {
+glm::vec3 unoccluded_light(const LightTree& tree, const EmissiveTriangles& emissive,
+                           const glm::vec3& position_ws, const glm::vec3& normal_ws) {
   return unoccluded_light(LitTree{tree, emissive}, position_ws, normal_ws);
 }
 

@@ -10,37 +10,37 @@
 //   EmitterRecord fetch_emitter(LitTreeRef tree, uint emitter)
 //   LightRecord fetch_light(LitTreeRef tree, uint light)
 
-/// Luminance of a white Lambert surface with this unit normal under the light of a leaf [W/(m^2
+/// Radiance of a white Lambert surface with this unit normal under the light of a leaf [W/(m^2
 /// sr)].
-LAMBENT_FN float light_of_leaf(LitTreeRef tree, LightTreeNode leaf, vec3 position_ws,
-                               vec3 normal_ws) {
+LAMBENT_FN vec3 light_of_leaf(LitTreeRef tree, LightTreeNode leaf, vec3 position_ws,
+                              vec3 normal_ws) {
   uint light = leaf.link & ~kLightTreeLeaf;
   uint emitters = emitter_count(tree);
   if (light < emitters) {
     EmitterRecord emitter = fetch_emitter(tree, light);
-    return leaf.intensity / emitter.area *
+    return leaf.tint * (leaf.intensity / emitter.area) *
            triangle_form_factor(emitter.corner_ws - position_ws, emitter.edge1_ws, emitter.edge2_ws,
                                 normal_ws);
   }
   PunctualSample arrived = sample_punctual(fetch_light(tree, light - emitters), position_ws);
-  return luminance(arrived.irradiance) * kInvPi * max(dot(arrived.to_light, normal_ws), 0.0f);
+  return arrived.irradiance * kInvPi * max(dot(arrived.to_light, normal_ws), 0.0f);
 }
 
 // Capacity of the stack of nodes, above the depth of trees that occur. Where it is full, clusters
 // are not opened.
 const int kMostWaitingNodes = 48;
 
-/// Luminance of a white Lambert surface with this unit normal [W/(m^2 sr)], without noise and
+/// Radiance of a white Lambert surface with this unit normal [W/(m^2 sr)], without noise and
 /// continuous. Distant clusters count as one light: Barnes and Hut, "A Hierarchical O(N log N)
 /// Force-Calculation Algorithm", Nature 324, 1986.
-LAMBENT_FN float unoccluded_light(LitTreeRef tree, vec3 position_ws, vec3 normal_ws) {
-  if (light_tree_size(tree) == 0u) return 0.0f;
+LAMBENT_FN vec3 unoccluded_light(LitTreeRef tree, vec3 position_ws, vec3 normal_ws) {
+  if (light_tree_size(tree) == 0u) return vec3(0.0f);
   uint waiting[kMostWaitingNodes];
   float shares[kMostWaitingNodes];
   int count = 1;
   waiting[0] = 0u;
   shares[0] = 1.0f;
-  float sum = 0.0f;
+  vec3 sum = vec3(0.0f);
   while (count > 0) {
     --count;
     LightTreeNode node = fetch_node(tree, waiting[count]);
@@ -53,7 +53,7 @@ LAMBENT_FN float unoccluded_light(LitTreeRef tree, vec3 position_ws, vec3 normal
       opened = count + 2 <= kMostWaitingNodes ? opened_share(node, position_ws) : 0.0f;
     }
     if (opened < 1.0f) {
-      sum += share * (1.0f - opened) * light_of_cluster(node, position_ws, normal_ws);
+      sum += share * (1.0f - opened) * light_of_cluster(node, position_ws, normal_ws) * node.tint;
     }
     if (opened <= 0.0f) continue;
     if ((node.link & kLightTreeLeaf) != 0u) {

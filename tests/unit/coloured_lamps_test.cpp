@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light of lamps that differ in colour, and what the filter divides it by.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <vector>
+
+#include "core/image/metrics.h"
+#include "lambent/renderer.h"
+#include "scene/light_sampling.h"
+#include "scene/light_tree/light_tree.h"
+#include "scene/light_tree/unoccluded_light.h"
+#include "shared/color.h"
+#include "shared/constants.h"
+#include "support/hand_made.h"
+
+namespace lambent::coloured_lamps_test {
+namespace {
+
+const vec3 kPink(12.0f, 1.0f, 5.0f), kBlue(0.5f, 3.0f, 16.0f);  // [W/(m^2 sr)]
+
+/// A white floor under a pink and a blue lamp, seen from above them.
+Scene two_lamps() {
+  Scene scene;
+  scene.materials = {test::lambert(vec3(0.8f)), test::lambert(vec3(0.0f), kPink),
+                     test::lambert(vec3(0.0f), kBlue)};
+  const vec3 along(1.0f, 0.0f, 0.0f), across(0.0f, 0.0f, 1.0f);
+  test::add(scene, test::quad(-2.0f * (along + across), 4.0f * across, 4.0f * along, 0));
+  for (int lamp = 1; lamp <= 2; ++lamp) {
+    const vec3 corner(lamp == 1 ? -1.0f : 0.9f, 0.3f, -0.5f);
+    test::add(scene, test::quad(corner, 0.1f * along, across, lamp));
+  }
+  scene.cameras = {look_at({0.0f, 5.0f, 0.0f}, vec3(0.0f), 0.8f)};
+  return scene;
+}
+
+TEST(ColouredLamps, KeepTheirColoursApart) {
+  const Scene scene = two_lamps();
+  const World world(scene);
+  Renderer renderer(world);
+  FrameSettings settings = quality_settings(Quality::interactive);
+  settings.width = settings.height = 64;
+  settings.emissive_samples = 16;
+  FrameSettings converged = settings;
+  converged.denoise = false;
+  converged.emissive_samples = 256;
+  const RenderedFrame truth = renderer.render(scene.cameras[0], converged).value();
+  const RenderedFrame filtered = renderer.render(scene.cameras[0], settings).value();
+  const Metrics found = compare_images(*filtered.image.find("direct"), *truth.image.find("direct"),
+                                       {.block = 4, .perceptual = false})
+                            .value();
+  std::printf("relative RMSE %.4f\n", found.relative_rmse);
+  EXPECT_LT(found.relative_rmse, 0.032);
+}
+
+TEST(ColouredLamps, AreInTheUnoccludedLight) {
+  const Scene scene = two_lamps();
+  const EmissiveTriangles emissive(scene);
+  const LightTree tree(scene, emissive);
+  const vec3 up(0.0f, 1.0f, 0.0f);
+  const auto light = [&](float x) { return unoccluded_light(tree, emissive, {x, 0.0f, 0.0f}, up); };
+  // Below a lamp, and where both send the same
+  const vec3 below = light(-0.95f), between = light(0.0f), both = kPink + kBlue;
+  EXPECT_GT(below.x / luminance(below), 0.9f * kPink.x / luminance(kPink));
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(between[c] / luminance(between), both[c] / luminance(both), 1e-3f) << c;
+  }
+}
+
+TEST(ColouredLamps, AreTintedAsTheirTextures) {
+  Scene scene = two_lamps();
+  Texture texture;
+  texture.srgb = false;
+  texture.levels.push_back({2, 1, {255, 0, 0, 255, 0, 0, 255, 255}});
+  scene.textures.push_back(texture);
+  for (Material& material : scene.materials) material.emission_texture.texture = 0;
+  // The whole quad has the colour of one texel, or the mean of both, by its texture coordinates
+  scene.materials[1].emission = scene.materials[2].emission = vec3(1.0f);
+  scene.meshes[1].uvs[0] = {{0.25f, 0.5f}, {0.25f, 0.5f}, {0.25f, 0.5f}, {0.25f, 0.5f}};
+  scene.meshes[2].uvs[0] = {{0.25f, 0.5f}, {0.25f, 0.5f}, {0.75f, 0.5f}, {0.75f, 0.5f}};
+  const EmissiveTriangles emissive(scene);
+  vec3 mixed(0.0f);
+  for (const EmitterRecord& emitter : emissive.entries()) {
+    const vec3 tint = emissive.tint(emitter);
+    EXPECT_NEAR(luminance(tint), 1.0f, 1e-5f);
+    if (emitter.instance == 1) {
+      EXPECT_NEAR(tint.x, 1.0f / luminance(vec3(1.0f, 0.0f, 0.0f)), 1e-3f);
+    } else {
+      mixed += emitter.probability * tint;
+    }
+  }
+  EXPECT_NEAR(mixed.x / mixed.z, 1.0f, 0.15f);
+}
+
+}  // namespace
+}  // namespace lambent::coloured_lamps_test
