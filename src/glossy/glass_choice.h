@@ -4,6 +4,7 @@
 #define LAMBENT_GLOSSY_GLASS_CHOICE_H
 
 #include "scene/coverage.h"
+#include "shared/owen.h"
 
 LAMBENT_BEGIN
 

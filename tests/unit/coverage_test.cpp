@@ -35,6 +35,22 @@ TEST(Coverage, SamplesOfAPixelLieInEqualParts) {
   }
 }
 
+TEST(Coverage, SamplesShowAPaneInAllPixelsOrInNone) {
+  constexpr std::uint32_t kSamples = 16;
+  for (std::uint32_t i = 0; i < kSamples; ++i) {
+    std::set<int> parts;
+    std::set<float> numbers;
+    for (std::uint32_t pixel = 0; pixel < 100; ++pixel) {
+      const float drawn = uniform_of_sample(sample_mask(pixel, i, kSamples, kSeed));
+      parts.insert(static_cast<int>(drawn * static_cast<float>(kSamples)));
+      numbers.insert(drawn);
+    }
+    EXPECT_EQ(parts.size(), 1u) << i;
+    // What covers too little for a whole sample is left to chance in each pixel
+    EXPECT_GT(numbers.size(), 90u) << i;
+  }
+}
+
 /// The surface at which a pixel's sample ends, of those that cover `alphas` of what is before them,
 /// front to back; their number if it ends at none.
 std::size_t end_of_sample(OrderedCoverage& met, std::span<const float> alphas) {
