@@ -41,9 +41,10 @@ constexpr float kMinEnclosure = 0.75f;
 constexpr float kMaxSkyIndoors = 0.08f;
 // A building has a court where the sky is above at least this share of its enclosed air.
 constexpr float kMinCourt = 0.05f;
-// Sky light in closed rooms with windows, as a share of that outdoors, so that windows are not
-// black.
-constexpr float kSkyThroughWindows = 0.5f;
+// The sky of closed rooms with windows, over that of first pictures outdoors. What lamps light is
+// several times as bright as a room by day, and windows are to be bright beside it: with 0.5 they
+// were those of a night.
+constexpr float kSkyThroughWindows = 3.0f;
 
 // A site that is this much larger than its subject, by diagonals, is the ground of a scene.
 constexpr float kMinSite = 2.0f;

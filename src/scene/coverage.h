@@ -3,6 +3,7 @@
 #ifndef LAMBENT_SCENE_COVERAGE_H
 #define LAMBENT_SCENE_COVERAGE_H
 
+#include "shared/owen.h"
 #include "shared/random.h"
 
 LAMBENT_BEGIN
@@ -54,15 +55,18 @@ LAMBENT_FN bool carries_sample(uint ray_mask) {
   return (ray_mask & kKindMaskBits) == kSampleMaskKind;
 }
 
-/// The number of a pixel's sample, in [0, 1): its radical inverse. A pixel's samples lie in equal
-/// parts, one in each, so that of four samples exactly one is below a quarter. The part is that of
-/// the same sample of other pixels, so that a sample shows a pane in all of its pixels or in none,
-/// and neighbours tell of its light; the place within the part is the pixel's own.
+/// The number of a pixel's sample, in [0, 1): its radical inverse. The first 2^k of a pixel's
+/// samples lie in equal parts, so that of four samples exactly one is below a quarter. Up to the
+/// largest power of 2, the part is that of the same sample of all pixels: a sample shows a pane in
+/// all of its pixels or in none, and neighbours tell of its light. All else is the pixel's own.
 LAMBENT_FN float uniform_of_sample(uint ray_mask) {
+  uint seed = hash_pcg(ray_mask >> kPixelMaskShift);
   uint index = (ray_mask >> kSampleMaskShift) & kSampleMaskBits;
   uint log2_samples = (ray_mask >> kSampleCountMaskShift) & kSampleCountMaskBits;
-  uint within = hash_pcg(ray_mask >> kPixelMaskShift) >> log2_samples;
-  return uniform_from_bits(bitfieldReverse(index) ^ within);
+  if ((index >> log2_samples) == 0u) {
+    return uniform_from_bits(bitfieldReverse(index) ^ (seed >> log2_samples));
+  }
+  return uniform_from_bits(bitfieldReverse(scramble_reversed(index, seed)));
 }
 
 /// Probability that a ray is stopped by coverage `alpha`.
