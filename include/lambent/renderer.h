@@ -75,13 +75,14 @@ struct FrameSettings {
   bool denoise = false;
   /// Number of the renderer's pictures over which light is averaged before it is filtered, 1 to
   /// 1000; 1: no averaging. Light through glass is not averaged. More pictures leave less noise in
-  /// sequences, at up to 530 bytes per pixel. Each picture then draws other rays. Surfaces are
+  /// sequences, at up to 560 bytes per pixel. Each picture then draws other rays. Surfaces are
   /// followed as the camera moves, reflections by what they show. Averages start anew for surfaces
   /// that were not seen before; where things move, on them, around them, in the shadows of lamps
   /// that they may move, and where mirrors may show them. Elsewhere, a frame counts for an eighth
-  /// of indirect light at least while things move. When lights, materials or the sky change, it
-  /// counts for a quarter of it, the field having been updated, and reflections and light that is
-  /// sampled start anew. What single gathering rays bring far beyond the field's light fades in
+  /// of indirect light at least while things move, or lights, materials or the sky change, the
+  /// field having been updated; lookups of the field are then averaged, too, and follow the level
+  /// of large parts of the picture. When lights, materials or the sky change, reflections and light
+  /// that is sampled start anew. What single gathering rays bring far beyond the field's light fades in
   /// over some 32 pictures, whatever this number, instead of flashing. For whole pictures of one
   /// sample per pixel, with `denoise`, on the processor.
   int averaged_frames = 1;

@@ -57,7 +57,7 @@ struct FilteredPixels {
   std::vector<float> received_weight;
   // Factors from filtered light to the camera's radiance, including the fog's transmittance
   std::vector<glm::vec3> indirect_albedo;
-  std::vector<glm::vec3> emitter_albedo;  ///< Includes the factor emitter_levels.
+  std::vector<glm::vec3> emitter_albedo;  ///< Times emitter_levels and unoccluded_tint().
   std::vector<float> emitter_levels;      ///< See filtered_level().
   FilteredCoats coats, clearcoats;
   FilteredCoats mirrored;                        ///< The coats that mirrors show.

@@ -56,27 +56,31 @@ LAMBENT_FN float indirect_share(float gi_share, uint looked_up) {
 
 /// Direct light of emitters in the form in which it is filtered [W/(m^2 sr)].
 struct FilteredEmitter {
-  vec3 light;     ///< Divided by albedo, level and tint.
-  vec3 albedo;    ///< Factor from filtered light to radiance: albedo times level and tint.
-  float level;    ///< See filtered_level().
-  float inverse;  ///< One over the level; 0 where there is no light.
+  vec3 light;   ///< Divided by albedo, level and tint.
+  vec3 albedo;  ///< Factor from filtered light to radiance: albedo times level and tint.
+  float level;  ///< See filtered_level().
+  float found;  ///< Luminance of the sampled light without albedo.
+  float scale;  ///< Luminance of `light` over `found`; 0 where there is no light.
 };
 
 /// `reflected`: the sampled light, with albedo. `unoccluded`: that of unoccluded_light().
 LAMBENT_FN FilteredEmitter filtered_emitter(Reflectance surface, vec3 reflected, vec3 unoccluded) {
   vec3 albedo = filtered_albedo(surface);
   vec3 found = reflected / albedo;
-  float level = filtered_level(luminance(unoccluded), luminance(found));
-  vec3 tint = filtered_tint(unoccluded);
+  vec3 tint = unoccluded_tint(unoccluded);
+  float whitened = luminance(found / tint);
+  float level = filtered_level(luminance(unoccluded), whitened);
   float inverse = inverse_level(level);
-  FilteredEmitter filtered = {inverse * found / tint, level * tint * albedo, level, inverse};
+  float whole = luminance(found);
+  float scale = whole > kLeastFilteredLevel ? inverse * (whitened / whole) : inverse;
+  FilteredEmitter filtered = {inverse * found / tint, level * tint * albedo, level, whole, scale};
   return filtered;
 }
 
 /// Variance of the luminance of `emitter.light`, given that of the sampled light over its albedo.
 LAMBENT_FN float filtered_variance(FilteredEmitter emitter, float variance) {
-  // The square of the inverse may exceed the range of floats
-  return emitter.inverse * (emitter.inverse * variance);
+  // The square of the scale may exceed the range of floats
+  return emitter.scale * (emitter.scale * variance);
 }
 
 /// The light of emitters where a path from a pixel's mirror has hit a surface. `variance`: see

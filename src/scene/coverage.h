@@ -32,12 +32,14 @@ LAMBENT_FN float uniform_of_hit(vec2 barycentrics, float distance, uint triangle
 //                  instances have the lowest bit, that it meets all of them
 //   bits 4 to 11   the sample, modulo 256
 //   bits 12 to 15  the logarithm to base 2 of the number of the pixel's samples, rounded down
-//   bits 16 to 31  a hash of the pixel
+//   bit 16         1 where that number is no power of 2
+//   bits 17 to 31  a hash of the pixel
 const uint kKindMaskBits = 0xFu, kSampleMaskKind = 1u;
 const uint kSampleMaskShift = 4u, kSampleMaskBits = 0xFFu;
 const uint kSampleCountMaskShift = 12u, kSampleCountMaskBits = 0xFu;
 const uint kMaxLog2Samples = 8u;  // samples are numbered modulo 256
-const uint kPixelMaskShift = 16u;
+const uint kOddCountMask = 1u << 16u;
+const uint kPixelMaskShift = 17u;
 
 /// A mask that meets all instances and carries no sample: kRayMeetsAll of raytracing/ray_records.h,
 /// which this folder does not include. A test holds the two against each other.
@@ -47,26 +49,34 @@ const uint kChanceMask = 0xFFFFFFFFu;
 LAMBENT_FN uint sample_mask(uint pixel, uint sample_index, uint samples, uint seed) {
   uint number = hash_pcg3d(uvec3(pixel, sample_index / (kSampleMaskBits + 1u), seed)).x;
   uint log2_samples = min(uint(findMSB(samples)), kMaxLog2Samples);
-  return kSampleMaskKind | ((sample_index & kSampleMaskBits) << kSampleMaskShift) |
-         (log2_samples << kSampleCountMaskShift) | ((number >> kPixelMaskShift) << kPixelMaskShift);
+  uint mask = kSampleMaskKind | ((sample_index & kSampleMaskBits) << kSampleMaskShift) |
+              (log2_samples << kSampleCountMaskShift) |
+              ((number >> kPixelMaskShift) << kPixelMaskShift);
+  return (samples & (samples - 1u)) != 0u ? mask | kOddCountMask : mask;
 }
 
 LAMBENT_FN bool carries_sample(uint ray_mask) {
   return (ray_mask & kKindMaskBits) == kSampleMaskKind;
 }
 
-/// The number of a pixel's sample, in [0, 1): its radical inverse. The first 2^k of a pixel's
-/// samples lie in equal parts, so that of four samples exactly one is below a quarter. Up to the
-/// largest power of 2, the part is that of the same sample of all pixels: a sample shows a pane in
-/// all of its pixels or in none, and neighbours tell of its light. All else is the pixel's own.
+/// The number of a pixel's sample, in [0, 1): its radical inverse, scrambled by the pixel. The
+/// first 2^k of a pixel's samples lie in equal parts, so that of four samples exactly one is below
+/// a quarter. Where the number of samples is a power of 2, the part of a frame's sample is that of
+/// the same sample of all pixels: it shows a pane in all of its pixels or in none, and neighbours
+/// tell of its light.
 LAMBENT_FN float uniform_of_sample(uint ray_mask) {
   uint seed = hash_pcg(ray_mask >> kPixelMaskShift);
   uint index = (ray_mask >> kSampleMaskShift) & kSampleMaskBits;
-  uint log2_samples = (ray_mask >> kSampleCountMaskShift) & kSampleCountMaskBits;
-  if ((index >> log2_samples) == 0u) {
-    return uniform_from_bits(bitfieldReverse(index) ^ (seed >> log2_samples));
-  }
-  return uniform_from_bits(bitfieldReverse(scramble_reversed(index, seed)));
+  uint shared_digits = (ray_mask & kOddCountMask) != 0u
+                           ? 0u
+                           : (ray_mask >> kSampleCountMaskShift) & kSampleCountMaskBits;
+  uint order = index & ((1u << shared_digits) - 1u);
+  // Successive parts are of an even and an odd sample, as coats have rays in other rows of pixels
+  // in each
+  if (shared_digits > 1u) order ^= order >> (shared_digits - 1u);
+  uint parts = bitfieldReverse(order);
+  uint within = bitfieldReverse(scramble_reversed(index >> shared_digits, seed));
+  return uniform_from_bits(parts | (within >> shared_digits));
 }
 
 /// Probability that a ray is stopped by coverage `alpha`.

@@ -108,6 +108,26 @@ const glm::vec2 kTintedPoints[] = {{1.0f / 3.0f, 1.0f / 3.0f},
                                    {2.0f / 3.0f, 1.0f / 6.0f},
                                    {1.0f / 6.0f, 2.0f / 3.0f}};
 
+// Returns a colour over its luminance; white where that is 0 or not finite.
+glm::vec3 tint_of(const glm::vec3& color) {
+  const float whole = luminance(color);
+  return whole > 0.0f && std::isfinite(whole) ? color / whole : glm::vec3(1.0f);
+}
+
+// Returns the colour that an emitter emits, over its luminance: where it is textured, or has vertex
+// colours, the mean of a few of its points, unless these are black.
+glm::vec3 tint_of(const Scene& scene, const EmitterRecord& emitter) {
+  const Mesh& mesh = scene.meshes[scene.instances[emitter.instance].mesh];
+  const Material& material = scene.materials[mesh.material];
+  const glm::vec3 plain = material.unlit ? glm::vec3(material.base_color) : material.emission;
+  if (!material.unlit && material.emission_texture.texture < 0) return tint_of(plain);
+  glm::vec3 sum(0.0f);
+  for (const glm::vec2& barycentrics : kTintedPoints) {
+    sum += emission_of(scene, emitter, barycentrics).radiance;
+  }
+  return tint_of(luminance(sum) > 0.0f ? sum : plain);
+}
+
 // Returns how often a triangle is halved, from its share of the total power.
 int halvings_of(double share) {
   int halvings = 0;
@@ -184,6 +204,8 @@ EmissiveTriangles::EmissiveTriangles(const Scene& scene) : scene_(&scene) {
       bounds_.back().add(emitter.corner_ws + emitter.edge2_ws);
     }
   }
+  tints_.reserve(entries_.size());
+  for (const EmitterRecord& emitter : entries_) tints_.push_back(tint_of(scene, emitter));
   total_power_ = static_cast<float>(kTwoPi * total);
   set_probabilities(powers, total);
 }
@@ -224,15 +246,6 @@ EmitterPick EmissiveTriangles::pick(float u) const {
 glm::vec3 EmissiveTriangles::radiance(const EmitterRecord& emitter, const glm::vec2& barycentrics,
                                       const glm::vec3& direction_ws) const {
   return emitted_radiance(*scene_, emitter, barycentrics, direction_ws);
-}
-
-glm::vec3 EmissiveTriangles::tint(const EmitterRecord& emitter) const {
-  glm::vec3 sum(0.0f);
-  for (const glm::vec2& barycentrics : kTintedPoints) {
-    sum += emission_of(*scene_, emitter, barycentrics).radiance;
-  }
-  const float whole = luminance(sum);
-  return whole > 0.0f ? sum / whole : glm::vec3(1.0f);
 }
 
 float EmissiveTriangles::pdf_area(std::uint32_t instance, std::uint32_t triangle,

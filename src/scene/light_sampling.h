@@ -56,15 +56,14 @@ class EmissiveTriangles {
   glm::vec3 radiance(const EmitterRecord& emitter, const glm::vec2& barycentrics,
                      const glm::vec3& direction_ws) const;
 
-  /// The colour that an entry emits, over its luminance: the mean of a few of its points.
-  glm::vec3 tint(const EmitterRecord& emitter) const;
-
   /// The density [1/m^2] with which `sample` draws a point of a triangle; 0 where it does not emit.
   float pdf_area(std::uint32_t instance, std::uint32_t triangle,
                  const glm::vec2& barycentrics) const;
 
   /// Emissive triangles, or pieces of them where they are divided, by instance and triangle.
   const std::vector<EmitterRecord>& entries() const { return entries_; }
+  /// The colours that the entries emit, each over its luminance.
+  const std::vector<glm::vec3>& tints() const { return tints_; }
   /// World-space boxes of the emissive triangles, one an instance [m].
   const std::vector<Bounds>& bounds() const { return bounds_; }
 
@@ -77,6 +76,7 @@ class EmissiveTriangles {
   const Scene* scene_;
   EmitterPieces pieces_;
   std::vector<EmitterRecord> entries_;
+  std::vector<glm::vec3> tints_;
   std::vector<Bounds> bounds_;
   std::vector<float> cumulative_;
   std::unordered_map<std::uint64_t, std::uint32_t> links_;  // links of pieces_, by triangle

@@ -24,9 +24,9 @@ const float kMostOverUnoccluded = 8.0f;
 
 /// The level by which direct light of emitters, without albedo, is divided before it is filtered:
 /// the unoccluded luminance. The filter then sees the unoccluded share alone, and preserves
-/// gradients near lights. `light` is the sampled luminance. Heitz, Hill and McGuire, "Combining
-/// Analytic Direct Illumination and Stochastic Shadows", I3D 2018, which also filters occluded over
-/// unoccluded light.
+/// gradients near lights. `light` is the sampled luminance, also over the tint. Heitz, Hill and
+/// McGuire, "Combining Analytic Direct Illumination and Stochastic Shadows", I3D 2018, which also
+/// filters occluded over unoccluded light.
 LAMBENT_FN float filtered_level(float unoccluded, float light) {
   return max(unoccluded, light / kMostOverUnoccluded);
 }
@@ -35,16 +35,15 @@ LAMBENT_FN float filtered_level(float unoccluded, float light) {
 // their inverse may overflow.
 const float kLeastFilteredLevel = 1e-30f;
 
-// A channel's least share of the luminance by which light is divided: the colours of lights are
-// means, and single samples may have more of a channel.
-const float kLeastTint = 1.0f / 64.0f;
+// Least tint of a channel: the colours of lights are means, and single samples may have more of it.
+const float kMinTint = 1.0f / 64.0f;
 
 /// The colour of unoccluded light over its luminance, by which direct light of emitters is divided,
 /// too. The filter takes the unoccluded share of all lamps for the same; where lamps differ in
 /// colour, it would mix these colours otherwise.
-LAMBENT_FN vec3 filtered_tint(vec3 unoccluded) {
+LAMBENT_FN vec3 unoccluded_tint(vec3 unoccluded) {
   float whole = luminance(unoccluded);
-  return whole > kLeastFilteredLevel ? max(unoccluded / whole, vec3(kLeastTint)) : vec3(1.0f);
+  return whole > kLeastFilteredLevel ? max(unoccluded / whole, vec3(kMinTint)) : vec3(1.0f);
 }
 
 /// One over a level; 0 where there is no light.

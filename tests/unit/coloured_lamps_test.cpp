@@ -2,11 +2,15 @@
 // The light of lamps that differ in colour, and what the filter divides it by.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <vector>
 
+#include "compose/pixel_math.h"
 #include "core/image/metrics.h"
 #include "lambent/renderer.h"
+#include "lambent/world.h"
 #include "scene/light_sampling.h"
 #include "scene/light_tree/light_tree.h"
 #include "scene/light_tree/unoccluded_light.h"
@@ -67,6 +71,20 @@ TEST(ColouredLamps, AreInTheUnoccludedLight) {
   }
 }
 
+// A single sample of a lamp that is rarer than the others' colours is limited as all light is, and
+// its variance is that of the light that is filtered.
+TEST(ColouredLamps, LimitSamplesOfRareColours) {
+  Reflectance white;
+  white.diffuse = vec3(1.0f);
+  const vec3 red(1.0f, 0.0f, 0.0f), blue(0.0f, 0.0f, 1.0f);
+  const FilteredEmitter emitter = filtered_emitter(white, blue, red);
+  EXPECT_LE(luminance(emitter.light), kMostOverUnoccluded * 1.001f);
+  EXPECT_NEAR(emitter.scale * luminance(blue), luminance(emitter.light), 1e-4f);
+  EXPECT_EQ(emitter.found, luminance(blue));
+  const vec3 shown = emitter.light * emitter.albedo;
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], blue[c], 1e-5f) << c;
+}
+
 TEST(ColouredLamps, AreTintedAsTheirTextures) {
   Scene scene = two_lamps();
   Texture texture;
@@ -80,8 +98,9 @@ TEST(ColouredLamps, AreTintedAsTheirTextures) {
   scene.meshes[2].uvs[0] = {{0.25f, 0.5f}, {0.25f, 0.5f}, {0.75f, 0.5f}, {0.75f, 0.5f}};
   const EmissiveTriangles emissive(scene);
   vec3 mixed(0.0f);
-  for (const EmitterRecord& emitter : emissive.entries()) {
-    const vec3 tint = emissive.tint(emitter);
+  for (std::size_t e = 0; e < emissive.size(); ++e) {
+    const EmitterRecord& emitter = emissive.entries()[e];
+    const vec3& tint = emissive.tints()[e];
     EXPECT_NEAR(luminance(tint), 1.0f, 1e-5f);
     if (emitter.instance == 1) {
       EXPECT_NEAR(tint.x, 1.0f / luminance(vec3(1.0f, 0.0f, 0.0f)), 1e-3f);

@@ -35,9 +35,24 @@ TEST(Coverage, SamplesOfAPixelLieInEqualParts) {
   }
 }
 
+// Frames of one sample, or of a few that are no power of 2, go on where the last one ended.
+TEST(Coverage, SamplesOfSuccessiveFramesLieInEqualParts) {
+  for (const std::uint32_t in_a_frame : {1u, 2u, 3u, 4u, 6u}) {
+    for (std::uint32_t pixel = 0; pixel < 100; ++pixel) {
+      std::set<int> parts;
+      for (std::uint32_t i = 0; i < 16; ++i) {
+        parts.insert(
+            static_cast<int>(16.0f * uniform_of_sample(sample_mask(pixel, i, in_a_frame, kSeed))));
+      }
+      EXPECT_EQ(parts.size(), 16u) << in_a_frame << ", pixel " << pixel;
+    }
+  }
+}
+
 TEST(Coverage, SamplesShowAPaneInAllPixelsOrInNone) {
   constexpr std::uint32_t kSamples = 16;
-  for (std::uint32_t i = 0; i < kSamples; ++i) {
+  // Under temporal anti-aliasing, numbers go on from frame to frame
+  for (std::uint32_t i = 0; i < 3 * kSamples; ++i) {
     std::set<int> parts;
     std::set<float> numbers;
     for (std::uint32_t pixel = 0; pixel < 100; ++pixel) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <string>
 
 #include "compose/pixel_math.h"
@@ -60,14 +62,24 @@ TEST(FilteredFrame, ShowsBlendedPanesAsMuchAsTheyCover) {
   FrameSettings many = few;
   many.samples = 64;
   many.gather_rays = 4;
+  // Reflections of the few samples vary by 2.5 % from seed to seed, the mean of so many by half
+  constexpr std::uint32_t kSeeds = 4;
   for (const bool denoise : {false, true}) {
     few.denoise = many.denoise = denoise;
-    const LayeredImage image = box.picture(few), truth = box.picture(many);
-    for (const char* layer : {"direct", "indirect", "glossy", "irradiance", "albedo"}) {
-      const Metrics found =
-          compare_images(*image.find(layer), *truth.find(layer), {.block = 8, .perceptual = false})
-              .value();
-      EXPECT_NEAR(found.mean_ratio, 1.0, 0.02) << layer << (denoise ? ", filtered" : "");
+    const LayeredImage truth = box.picture(many);
+    std::map<std::string, double> ratios;
+    for (few.seed = 1; few.seed <= kSeeds; ++few.seed) {
+      const LayeredImage image = box.picture(few);
+      for (const char* layer : {"direct", "indirect", "glossy", "irradiance", "albedo"}) {
+        ratios[layer] += compare_images(*image.find(layer), *truth.find(layer),
+                                        {.block = 8, .perceptual = false})
+                             .value()
+                             .mean_ratio /
+                         kSeeds;
+      }
+    }
+    for (const auto& [layer, ratio] : ratios) {
+      EXPECT_NEAR(ratio, 1.0, 0.02) << layer << (denoise ? ", filtered" : "");
     }
   }
 }

@@ -16,30 +16,29 @@ struct MostFrames {
   float of_emitters, of_gathers;
 };
 
-/// Averages one kind of light of a pixel with the history's.
-template <class T>
-void average(const std::vector<T>& before, const HistoryTaps& taps, float frames, T& now) {
-  if (frames > 1.0f) now = mix(weighted_sum(before, taps), now, 1.0f / frames);
-}
+// Frames after the last change of the world in which lookups are still shown averaged: by then, the
+// averages are of the changed world alone. Where it changes in every second frame, or rests for a
+// moment, pictures would go to and fro between both.
+constexpr int kFramesAfterChange = 8;
 
-/// Luminance of a pixel's light less that of the history's, which is 0 where there is none.
-float luminance_off(const std::vector<vec3>& before, const HistoryTaps& taps, const vec3& now) {
-  return luminance(now - weighted_sum(before, taps));
+/// Averages one kind of light of a pixel with the history's.
+void average(const vec3& before, float frames, vec3& now) {
+  if (frames > 1.0f) now = mix(before, now, 1.0f / frames);
 }
 
 /// The light of previous frames at a pixel.
 struct PixelHistory {
   std::size_t pixel;
   const HistoryTaps& taps;
-  vec3 level;  ///< Factor that brings its lookups to the level of this frame.
+  vec3 level;  ///< Factor that brings its gathered light to the level of this frame.
 };
 
 /// How a pixel's gathered light is averaged.
 struct GatherAverage {
   MostFrames most;
-  bool changes;  ///< The world changes: lookups, too, are shown averaged.
-  bool relit;    ///< Lights, materials or the sky have changed: excess starts anew.
-  bool moves;    ///< The pixel shows what moves.
+  bool shows_lookups;  ///< Lookups, too, are shown averaged.
+  bool relit;          ///< Lights, materials or the sky have changed: excess starts anew.
+  bool moves;          ///< The pixel shows what moves.
 };
 
 /// Averages what a pixel gathers, over fewer frames where its lookup has changed otherwise than
@@ -57,13 +56,14 @@ void average_gathered(const LightHistory& last, const PixelHistory& history,
     const float kept = kept_by_lookup(luminance(looked_up_before), luminance(looked_up));
     frames = averaged_frames(kept * weighted_sum(last.gathered_frames, taps), by.most.of_gathers);
   }
-  const float off = luminance_off(last.differences, taps, difference);
-  average(last.differences, taps, frames, difference);
-  if (frames > 1.0f) looked_up = mix(looked_up_before, looked_up, 1.0f / frames);
+  const vec3 difference_before = history.level * weighted_sum(last.differences, taps);
+  const float off = luminance(difference - difference_before);
+  average(difference_before, frames, difference);
+  average(looked_up_before, frames, looked_up);
   const vec3 excess = by.relit ? vec3(0.0f) : weighted_sum(last.excess, taps);
   next.excess[i] = averaged_excess(excess, pixels.excess[i]);
   if (!by.moves) pixels.excess[i] = next.excess[i];
-  if (by.changes) pixels.looked_up[i] = looked_up;
+  if (by.shows_lookups) pixels.looked_up[i] = looked_up;
   pixels.gathered[i] = pixels.looked_up[i] + difference;
   average_noise(last.gathered_noise, {i, taps, off, frames, by.relit},
                 {pixels.gathered_variance, pixels.gathered_history_variance}, next.gathered_noise);
@@ -76,8 +76,9 @@ void average_emitters(const LightHistory& last, const HistoryTaps& taps, const M
   if (is_history(taps)) {
     frames = averaged_frames(weighted_sum(last.frames, taps), most.of_emitters);
   }
-  const float off = luminance_off(last.emitters, taps, light);
-  average(last.emitters, taps, frames, light);
+  const vec3 before = weighted_sum(last.emitters, taps);
+  const float off = luminance(light - before);
+  average(before, frames, light);
   next.emitters[i] = light;
   average_noise(last.emitter_noise, {i, taps, off, frames, relit},
                 {pixels.emitter_variance, pixels.emitter_history_variance}, next.emitter_noise);
@@ -165,14 +166,15 @@ struct PixelFinder {
                                                depth, tolerance(i, depth),
                                                pixels.geometric_normals_ws[i]);
   }
-  /// Of the depth of a pixel's surface, where it is `depth` away [m].
-  float tolerance(std::size_t i, float depth) const {
+  /// Of the depth of a pixel's surface, where it is `depth` away and pixels are `apart` pixels
+  /// apart [m].
+  float tolerance(std::size_t i, float depth, int apart = 1) const {
     const CameraRecord& camera = by.views.now;
     const bool parallel = camera.orthographic != 0u;
     const vec3 to_viewer =
         normalize(parallel ? camera.axes[2] : camera.position_ws - pixels.positions_ws[i]);
-    return depth_tolerance(depth, pixel_width_at_depth(camera, depth),
-                           dot(pixels.geometric_normals_ws[i], to_viewer));
+    const float width = static_cast<float>(apart) * pixel_width_at_depth(camera, depth);
+    return depth_tolerance(depth, width, dot(pixels.geometric_normals_ws[i], to_viewer));
   }
 };
 
@@ -188,13 +190,18 @@ DenoiseView view_of(const FrameAveraging& by, const FilteredPixels& pixels) {
 LookupLevels levels_since(const LightHistory& last, const PixelFinder& finder) {
   const FilteredPixels& pixels = finder.pixels;
   std::vector<vec3> before(pixels.looked_up.size());
+  std::vector<float> depths(before.size());
   parallel_chunks(before.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const HistoryTaps taps = finder.taps(i);
-      before[i] = is_history(taps) ? weighted_sum(last.looked_up, taps) : pixels.looked_up[i];
+      if (!is_history(taps)) continue;
+      before[i] = weighted_sum(last.looked_up, taps);
+      depths[i] = pixels.depths[i];
     }
   });
-  return {view_of(finder.by, pixels), before, pixels.looked_up};
+  DenoiseView view = view_of(finder.by, pixels);
+  view.depths = depths;
+  return {view, before, pixels.looked_up};
 }
 
 }  // namespace
@@ -219,9 +226,10 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
   pixels.emitter_history_variance.resize(has_noise ? next.emitter_noise.shares.size() : 0);
   const PixelFinder finder{by, pixels, surfaces_before(last, continues)};
   const bool gathers = !pixels.gathered.empty();
-  const bool changes = continues && changed != nullptr;
+  next.frames_after_change = changed != nullptr ? 0 : std::min(last.frames_after_change, kFramesAfterChange) + 1;
+  const bool shows_lookups = continues && gathers && next.frames_after_change <= kFramesAfterChange;
   LookupLevels levels;
-  if (changes && gathers) levels = levels_since(last, finder);
+  if (shows_lookups) levels = levels_since(last, finder);
   const DenoiseView view = view_of(by, pixels);
   parallel_chunks(pixels.depths.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -229,8 +237,12 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
       const MostFrames most = most_frames(by, changed, pixels, i);
       if (gathers) {
         const bool moves = by.moved != nullptr && by.moved->contain(pixels.positions_ws[i]);
-        const vec3 level = levels.followed(view, i, finder.tolerance(i, pixels.depths[i]));
-        average_gathered(last, {i, taps, level}, {most, changes, relit, moves}, pixels, next);
+        vec3 level(1.0f);
+        if (shows_lookups) {
+          const float tolerance = finder.tolerance(i, pixels.depths[i], levels.pixels_apart());
+          level = levels.followed(view, i, tolerance);
+        }
+        average_gathered(last, {i, taps, level}, {most, shows_lookups, relit, moves}, pixels, next);
       }
       if (!pixels.emitters.empty()) average_emitters(last, taps, most, relit, i, pixels, next);
     }

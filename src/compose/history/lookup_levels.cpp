@@ -7,8 +7,9 @@
 namespace lambent {
 namespace {
 
-// Rows of the picture in which levels are found. A filter of six passes then averages over a third
-// of its height, several cells of a grid of probes in a room that fills the picture.
+// Most rows of pixels at which levels are found, and more than half of it in taller pictures. A
+// filter of six passes then averages over a third to two thirds of the picture's height, several
+// cells of a grid of probes in a room that fills the picture, and over all of smaller pictures.
 constexpr int kLevelRows = 180;
 
 }  // namespace
@@ -52,8 +53,7 @@ vec3 LookupLevels::followed(const DenoiseView& view, std::size_t pixel, float to
   SurfacesBefore surfaces{{positions_ws_, normals_ws_, depths_}};
   const vec2 place = middle_of(pixel, {view.width, view.height}) / static_cast<float>(step_);
   const HistoryTaps taps =
-      surfaces.history_taps(size_, place, view.depths[pixel], tolerance * static_cast<float>(step_),
-                            view.normals_ws[pixel]);
+      surfaces.history_taps(size_, place, view.depths[pixel], tolerance, view.normals_ws[pixel]);
   return is_history(taps) ? weighted_sum(factors_, taps) : vec3(1.0f);
 }
 

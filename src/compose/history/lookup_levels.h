@@ -20,13 +20,17 @@ class LookupLevels {
   /// Levels that do not change.
   LookupLevels() = default;
 
+  /// Distance of the pixels at which levels are found [pixels].
+  int pixels_apart() const { return step_; }
+
   /// `before` and `now`: lookups at the view's pixels [W/m^2], the average of previous frames and
-  /// those of this frame; both are the same where a pixel has no history.
+  /// those of this frame. Pixels without a history have a depth of 0.
   LookupLevels(const DenoiseView& view, std::span<const vec3> before, std::span<const vec3> now);
 
   /// The factor that brings a pixel's average to the level of this frame, see followed_level(),
   /// channel by channel, since surfaces of other colours are lit.
-  /// `tolerance`: of its surface's depth [m], see depth_tolerance().
+  /// `tolerance`: of its surface's depth between pixels that are pixels_apart() apart [m], see
+  /// depth_tolerance(). 1 where no pixel around it that shows its surface has a history.
   vec3 followed(const DenoiseView& view, std::size_t pixel, float tolerance) const;
 
  private:

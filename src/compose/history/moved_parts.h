@@ -22,8 +22,8 @@ class MovedParts {
   /// Whether a point may be on one of the parts: it is in the box around one.
   bool contain(const vec3& position_ws) const;
 
-  /// The largest number of frames, >= 1, over which gathered light of a surface may be averaged, as
-  /// its difference from the field's, which follows edits at once.
+  /// The largest number of frames, >= 1, over which gathered light of a surface may be averaged,
+  /// and the field's light at it, which follows edits at once.
   float frames_of_gathers(const vec3& position_ws, const vec3& normal_ws) const;
 
   /// The same for irradiance from emissive surfaces, which changes where parts may shade them.

@@ -24,7 +24,7 @@ void keep_emitters(uint k, uint pixel, LitPointRecord point, Reflectance reflect
   args.seen.at[0].emitter_albedo.at[pixel] = throughput * emitter.albedo;
   if (args.draws < 2u) return;
   args.seen.at[0].emitter_variance.at[pixel] =
-      filtered_variance(emitter, variance_of_sum(emitter.level * luminance(emitter.light),
+      filtered_variance(emitter, variance_of_sum(emitter.found,
                                                  args.drawn_squares.at[k], args.draws));
 }
 

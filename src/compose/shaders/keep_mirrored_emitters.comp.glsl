@@ -30,7 +30,7 @@ void main() {
                        unoccluded_light(args.scene, point.position_ws, point.normal_ws));
   float variance = 0.0f;
   if (args.draws > 1u) {
-    variance = variance_of_sum(emitter.level * luminance(emitter.light), args.drawn_squares.at[k],
+    variance = variance_of_sum(emitter.found, args.drawn_squares.at[k],
                                args.draws);
   }
   args.emitters.at[args.pixels.at[k]] =

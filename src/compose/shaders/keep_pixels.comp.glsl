@@ -97,13 +97,13 @@ void main() {
   }
   if (args.draws > 0u) {
     keep_highlight(i, pixel, point, surface, has_rays, weight);
-    FilteredEmitter emitter = FilteredEmitter(vec3(0.0f), vec3(0.0f), 0.0f, 0.0f);
+    FilteredEmitter emitter = FilteredEmitter(vec3(0.0f), vec3(0.0f), 0.0f, 0.0f, 0.0f);
     float variance = 0.0f;
     if (seen) {
       emitter = filtered_emitter(surface.reflectance, args.emitters.at[i],
                                  unoccluded_light(args.scene, point.position_ws, point.normal_ws));
       variance =
-          filtered_variance(emitter, variance_of_sum(emitter.level * luminance(emitter.light),
+          filtered_variance(emitter, variance_of_sum(emitter.found,
                                                      args.emitter_squares.at[i], args.draws));
     }
     args.pixels.at[0].emitter_levels.at[pixel] = emitter.level;

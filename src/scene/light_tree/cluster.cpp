@@ -69,7 +69,7 @@ void LightCluster::add(const LightCluster& other) {
   box.add(other.box);
   cone = join(cone, other.cone);
   intensity += other.intensity;
-  color += other.color;
+  intensity_rgb += other.intensity_rgb;
   mean += other.mean;
 }
 
@@ -100,7 +100,7 @@ LightCluster cluster_of(const EmitterRecord& emitter, float intensity, const glm
     cluster.cone.cos_spread = -1.0f;
   }
   cluster.intensity = intensity;
-  cluster.color = cluster.intensity * glm::dvec3(tint);
+  cluster.intensity_rgb = cluster.intensity * glm::dvec3(tint);
   cluster.mean = 0.5 * intensity;  // the mean of the cosine on both sides
   cluster.empty = false;
   return cluster;
@@ -117,7 +117,7 @@ LightCluster cluster_of(const LightRecord& light) {
     cluster.cone.cos_emission = 0.0f;
   }
   cluster.intensity = luminance(light.intensity);
-  cluster.color = light.intensity;
+  cluster.intensity_rgb = light.intensity;
   cluster.mean = cluster.intensity * mean_cone_attenuation(light);
   cluster.empty = false;
   return cluster;
@@ -141,8 +141,8 @@ LightTreeNode node_of(const LightCluster& cluster) {
   node.mean_relative_intensity =
       cluster.intensity > 0.0 ? static_cast<float>(cluster.mean / cluster.intensity) : 0.0f;
   node.both_sides = cluster.cone.both_sides ? 1u : 0u;
-  node.tint =
-      cluster.intensity > 0.0 ? glm::vec3(cluster.color / cluster.intensity) : glm::vec3(1.0f);
+  node.tint = cluster.intensity > 0.0 ? glm::vec3(cluster.intensity_rgb / cluster.intensity)
+                                      : glm::vec3(1.0f);
   return node;
 }
 

@@ -28,9 +28,9 @@ FacingCone join(const FacingCone& a, const FacingCone& b);
 struct LightCluster {
   Bounds box;  ///< [m]
   FacingCone cone;
-  double intensity = 0.0;  ///< [W/sr], luminance.
-  glm::dvec3 color{0.0};   ///< The same in each channel.
-  double mean = 0.0;       ///< Mean over all directions [W/sr], luminance.
+  double intensity = 0.0;         ///< [W/sr], luminance.
+  glm::dvec3 intensity_rgb{0.0};  ///< [W/sr]
+  double mean = 0.0;              ///< Mean over all directions [W/sr], luminance.
   bool empty = true;
 
   void add(const LightCluster& other);
@@ -40,7 +40,7 @@ struct LightCluster {
   double cost() const;
 };
 
-/// `tint`: of its light, over its luminance.
+/// `tint`: colour of its light, of luminance 1.
 LightCluster cluster_of(const EmitterRecord& emitter, float intensity, const glm::vec3& tint);
 LightCluster cluster_of(const LightRecord& light);
 

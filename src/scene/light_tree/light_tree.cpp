@@ -145,8 +145,9 @@ std::vector<LightCluster> LightTree::clusters_of_lights(const EmissiveTriangles&
   std::vector<LightCluster> clusters;
   clusters.reserve(emissive.size() + drawn_.size());
   const float whole = emissive.total_power() / kTwoPi;
-  for (const EmitterRecord& emitter : emissive.entries()) {
-    clusters.push_back(cluster_of(emitter, emitter.probability * whole, emissive.tint(emitter)));
+  for (std::size_t e = 0; e < emissive.size(); ++e) {
+    const EmitterRecord& emitter = emissive.entries()[e];
+    clusters.push_back(cluster_of(emitter, emitter.probability * whole, emissive.tints()[e]));
   }
   for (const std::uint32_t light : drawn_) clusters.push_back(cluster_of(lights_[light]));
   return clusters;

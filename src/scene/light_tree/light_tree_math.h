@@ -30,7 +30,7 @@ struct LightTreeNode {
   float mean_relative_intensity;
   float cos_emission;  ///< Cosine of the largest angle from its axis at which a light emits.
   uint both_sides;     ///< 1: some also emit in the opposite direction.
-  vec3 tint;           ///< Their mean colour, over its luminance.
+  vec3 tint;           ///< Their mean colour by intensity; its luminance is 1.
   uint link;           ///< Children or light, as above.
 };
 
