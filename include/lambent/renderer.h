@@ -82,9 +82,9 @@ struct FrameSettings {
   /// of indirect light at least while things move, or lights, materials or the sky change, the
   /// field having been updated; lookups of the field are then averaged, too, and follow the level
   /// of large parts of the picture. When lights, materials or the sky change, reflections and light
-  /// that is sampled start anew. What single gathering rays bring far beyond the field's light fades in
-  /// over some 32 pictures, whatever this number, instead of flashing. For whole pictures of one
-  /// sample per pixel, with `denoise`, on the processor.
+  /// that is sampled start anew. What single gathering rays bring far beyond the field's light
+  /// fades in over some 32 pictures, whatever this number, instead of flashing. For whole pictures
+  /// of one sample per pixel, with `denoise`, on the processor.
   int averaged_frames = 1;
   /// Write the layer "motion" (motion vectors) with two channels: the position at which the
   /// renderer's picture before showed the surface of a pixel, less its position now [pixels, +x

@@ -226,7 +226,8 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
   pixels.emitter_history_variance.resize(has_noise ? next.emitter_noise.shares.size() : 0);
   const PixelFinder finder{by, pixels, surfaces_before(last, continues)};
   const bool gathers = !pixels.gathered.empty();
-  next.frames_after_change = changed != nullptr ? 0 : std::min(last.frames_after_change, kFramesAfterChange) + 1;
+  next.frames_after_change =
+      changed != nullptr ? 0 : std::min(last.frames_after_change, kFramesAfterChange) + 1;
   const bool shows_lookups = continues && gathers && next.frames_after_change <= kFramesAfterChange;
   LookupLevels levels;
   if (shows_lookups) levels = levels_since(last, finder);
