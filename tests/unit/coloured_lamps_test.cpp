@@ -11,6 +11,7 @@
 #include "core/image/metrics.h"
 #include "lambent/renderer.h"
 #include "lambent/world.h"
+#include "raytracing/surface_math.h"
 #include "scene/light_sampling.h"
 #include "scene/light_tree/light_tree.h"
 #include "scene/light_tree/unoccluded_light.h"
@@ -74,8 +75,7 @@ TEST(ColouredLamps, AreInTheUnoccludedLight) {
 // A single sample of a lamp that is rarer than the others' colours is limited as all light is, and
 // its variance is that of the light that is filtered.
 TEST(ColouredLamps, LimitSamplesOfRareColours) {
-  Reflectance white;
-  white.diffuse = vec3(1.0f);
+  const Reflectance white = lambert_reflectance(vec3(1.0f));
   const vec3 red(1.0f, 0.0f, 0.0f), blue(0.0f, 0.0f, 1.0f);
   const FilteredEmitter emitter = filtered_emitter(white, blue, red);
   EXPECT_LE(luminance(emitter.light), kMostOverUnoccluded * 1.001f);
