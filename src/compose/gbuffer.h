@@ -93,8 +93,7 @@ struct ReflectedLight {
   /// Variance of the luminance of `emitters` over filtered_albedo(); empty where a pixel has one
   /// sample, which has no variance to measure.
   std::vector<float> emitter_variance;
-  /// Radiance of white Lambert surfaces under emitters if nothing were in the way [W/(m^2 sr)],
-  /// without noise; empty where `emitters` is.
+  /// See unoccluded_light() [W/(m^2 sr)]; empty where `emitters` is.
   std::vector<glm::vec3> unoccluded;
   /// What coats and clearcoats whose light comes from rays reflect of the bright part of the sky;
   /// empty where the sky has none.

@@ -17,30 +17,13 @@
 #include "scene/light_tree/unoccluded_light.h"
 #include "shared/color.h"
 #include "shared/constants.h"
-#include "support/hand_made.h"
+#include "support/coloured_lamps.h"
 
 namespace lambent::coloured_lamps_test {
 namespace {
 
-const vec3 kPink(12.0f, 1.0f, 5.0f), kBlue(0.5f, 3.0f, 16.0f);  // [W/(m^2 sr)]
-
-/// A white floor under a pink and a blue lamp, seen from above them.
-Scene two_lamps() {
-  Scene scene;
-  scene.materials = {test::lambert(vec3(0.8f)), test::lambert(vec3(0.0f), kPink),
-                     test::lambert(vec3(0.0f), kBlue)};
-  const vec3 along(1.0f, 0.0f, 0.0f), across(0.0f, 0.0f, 1.0f);
-  test::add(scene, test::quad(-2.0f * (along + across), 4.0f * across, 4.0f * along, 0));
-  for (int lamp = 1; lamp <= 2; ++lamp) {
-    const vec3 corner(lamp == 1 ? -1.0f : 0.9f, 0.3f, -0.5f);
-    test::add(scene, test::quad(corner, 0.1f * along, across, lamp));
-  }
-  scene.cameras = {look_at({0.0f, 5.0f, 0.0f}, vec3(0.0f), 0.8f)};
-  return scene;
-}
-
 TEST(ColouredLamps, KeepTheirColoursApart) {
-  const Scene scene = two_lamps();
+  const Scene scene = test::two_lamps();
   const World world(scene);
   Renderer renderer(world);
   FrameSettings settings = quality_settings(Quality::interactive);
@@ -59,14 +42,14 @@ TEST(ColouredLamps, KeepTheirColoursApart) {
 }
 
 TEST(ColouredLamps, AreInTheUnoccludedLight) {
-  const Scene scene = two_lamps();
+  const Scene scene = test::two_lamps();
   const EmissiveTriangles emissive(scene);
   const LightTree tree(scene, emissive);
   const vec3 up(0.0f, 1.0f, 0.0f);
   const auto light = [&](float x) { return unoccluded_light(tree, emissive, {x, 0.0f, 0.0f}, up); };
   // Below a lamp, and where both send the same
-  const vec3 below = light(-0.95f), between = light(0.0f), both = kPink + kBlue;
-  EXPECT_GT(below.x / luminance(below), 0.9f * kPink.x / luminance(kPink));
+  const vec3 below = light(-0.95f), between = light(0.0f), both = test::kPink + test::kBlue;
+  EXPECT_GT(below.x / luminance(below), 0.9f * test::kPink.x / luminance(test::kPink));
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(between[c] / luminance(between), both[c] / luminance(both), 1e-3f) << c;
   }
@@ -86,7 +69,7 @@ TEST(ColouredLamps, LimitSamplesOfRareColours) {
 }
 
 TEST(ColouredLamps, AreTintedAsTheirTextures) {
-  Scene scene = two_lamps();
+  Scene scene = test::two_lamps();
   Texture texture;
   texture.srgb = false;
   texture.levels.push_back({2, 1, {255, 0, 0, 255, 0, 0, 255, 255}});

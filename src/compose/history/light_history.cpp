@@ -16,9 +16,9 @@ struct MostFrames {
   float of_emitters, of_gathers;
 };
 
-// Frames after the last change of the world in which lookups are still shown averaged: by then, the
-// averages are of the changed world alone. Where it changes in every second frame, or rests for a
-// moment, pictures would go to and fro between both.
+// Number of frames after the last change of the world that still show lookups averaged. Without
+// them, pictures of a world that changes in every second frame would go to and fro between averages
+// and single lookups. After so many, the averages hold lookups in the world as it is.
 constexpr int kFramesAfterChange = 8;
 
 /// Averages one kind of light of a pixel with the history's.
@@ -166,8 +166,8 @@ struct PixelFinder {
                                                depth, tolerance(i, depth),
                                                pixels.geometric_normals_ws[i]);
   }
-  /// Of the depth of a pixel's surface, where it is `depth` away and pixels are `apart` pixels
-  /// apart [m].
+  /// Tolerance of the depth of a pixel's surface, `depth` away, between places that are `apart`
+  /// pixels apart [m].
   float tolerance(std::size_t i, float depth, int apart = 1) const {
     const CameraRecord& camera = by.views.now;
     const bool parallel = camera.orthographic != 0u;
@@ -226,9 +226,10 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
   pixels.emitter_history_variance.resize(has_noise ? next.emitter_noise.shares.size() : 0);
   const PixelFinder finder{by, pixels, surfaces_before(last, continues)};
   const bool gathers = !pixels.gathered.empty();
-  next.frames_after_change =
-      changed != nullptr ? 0 : std::min(last.frames_after_change, kFramesAfterChange) + 1;
-  const bool shows_lookups = continues && gathers && next.frames_after_change <= kFramesAfterChange;
+  next.averaged_lookups =
+      changed != nullptr ? kFramesAfterChange : std::max(last.averaged_lookups - 1, 0);
+  const bool shows_lookups =
+      continues && gathers && (changed != nullptr || last.averaged_lookups > 0);
   LookupLevels levels;
   if (shows_lookups) levels = levels_since(last, finder);
   const DenoiseView view = view_of(by, pixels);

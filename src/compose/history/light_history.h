@@ -15,7 +15,7 @@ namespace lambent {
 /// Memory is reused.
 struct LightHistory {
   bool is_there = false;
-  int frames_after_change = 1 << 20;  ///< Since the world last changed in a known way.
+  int averaged_lookups = 0;  ///< Number of coming frames that show lookups averaged.
   std::vector<glm::vec3> positions_ws;
   std::vector<glm::vec3> normals_ws;  ///< Geometric normals.
   std::vector<float> depths;

@@ -7,16 +7,17 @@
 namespace lambent {
 namespace {
 
-// Most rows of pixels at which levels are found, and more than half of it in taller pictures. A
-// filter of six passes then averages over a third to two thirds of the picture's height, several
-// cells of a grid of probes in a room that fills the picture, and over all of smaller pictures.
-constexpr int kLevelRows = 180;
+// Pictures of more rows than this are read at every second, third, ... pixel. The filter, which
+// reaches 63 of these pixels, then averages over a third to two thirds of the picture's height: in
+// a room that fills the picture, over several cells of a grid of probes. It averages over all of a
+// much smaller picture.
+constexpr int kMaxLevelRows = 180;
 
 }  // namespace
 
 LookupLevels::LookupLevels(const DenoiseView& view, std::span<const vec3> before,
                            std::span<const vec3> now)
-    : step_((view.height + kLevelRows - 1) / kLevelRows),
+    : step_((view.height + kMaxLevelRows - 1) / kMaxLevelRows),
       size_((view.width + step_ - 1) / step_, (view.height + step_ - 1) / step_) {
   std::vector<vec3> before_here, now_here;
   for (int k = 0; k < size_.x * size_.y; ++k) {

@@ -20,21 +20,22 @@ class LookupLevels {
   /// Levels that do not change.
   LookupLevels() = default;
 
-  /// Distance of the pixels at which levels are found [pixels].
-  int pixels_apart() const { return step_; }
-
   /// `before` and `now`: lookups at the view's pixels [W/m^2], the average of previous frames and
   /// those of this frame. Pixels without a history have a depth of 0.
   LookupLevels(const DenoiseView& view, std::span<const vec3> before, std::span<const vec3> now);
 
-  /// The factor that brings a pixel's average to the level of this frame, see followed_level(),
-  /// channel by channel, since surfaces of other colours are lit.
-  /// `tolerance`: of its surface's depth between pixels that are pixels_apart() apart [m], see
-  /// depth_tolerance(). 1 where no pixel around it that shows its surface has a history.
+  /// Distance of the pixels at which levels are found [pixels].
+  int pixels_apart() const { return step_; }
+
+  /// The factor that brings a pixel's average to the level of this frame, see followed_level(); in
+  /// each channel, as light may have come to be reflected by surfaces of another colour. 1 where no
+  /// pixel around it that shows its surface has a history. `tolerance`: of its surface's depth
+  /// between pixels that are pixels_apart() apart [m], see depth_tolerance().
   vec3 followed(const DenoiseView& view, std::size_t pixel, float tolerance) const;
 
  private:
-  /// Every step_-th pixel, both ways; lookups vary slowly, and the filter has to reach far.
+  // Of every step_-th pixel of every step_-th row: lookups vary slowly, and the filter has to reach
+  // far
   int step_ = 1;
   ivec2 size_{0};
   std::vector<vec3> positions_ws_, normals_ws_;
