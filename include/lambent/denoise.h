@@ -90,6 +90,12 @@ struct DenoiseSettings {
   /// values leave less noise and blur more: with the default, reflections look as if the surface
   /// were 2 % rougher, with 1 as if it were 8 % rougher.
   float lobe_share = 0.5f;
+  /// With lobes: light is averaged also over this share of their width as if what they see were
+  /// infinitely far away, 0 to 16; 0: it is not. Where the light has a variance, this holds for
+  /// neighbours whose light differs by no more than its noise. Near what it reflects, a lobe sees
+  /// something else at each pixel, so that `lobe_share` leaves noise there; but what a polished
+  /// surface shows in another one lies far behind it.
+  float far_lobe_share = 0.0f;
 };
 
 /// Fails with the first setting that is out of range.
@@ -99,12 +105,17 @@ Expected<void> check(const DenoiseSettings& settings);
 DenoiseSettings emitter_denoising();
 
 /// Settings with which all passes ignore differences of light: for quantities that are spread over
-/// surfaces whatever their noise, and for light that lobes reflect.
+/// surfaces whatever their noise, and for light of unknown variance that lobes reflect.
 DenoiseSettings geometric_denoising();
 
 /// geometric_denoising() for the excess of light that lobes reflect: what single rays brought that
 /// are so rare that their light is best spread beyond the lobes that found it.
 DenoiseSettings excess_denoising();
+
+/// geometric_denoising() for light that lobes reflect, with a variance, of one of `samples`
+/// pictures whose mean is shown, >= 1. Of what is near, light is averaged as far as it differs by
+/// no more than the noise of that mean.
+DenoiseSettings reflection_denoising(int samples);
 
 /// The radius [pixels] around a pixel on which its filtered light depends.
 int denoise_reach(const DenoiseSettings& settings);

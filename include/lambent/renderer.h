@@ -107,7 +107,7 @@ struct FrameSettings {
   /// the inverse of the exposure displays such colours unchanged. In reflections, through glass and
   /// as light on other surfaces, they have a radiance of 1.
   float unlit_radiance = 1.0f;
-  FogSettings fog;         ///< How light in the scene's fog (Scene::fog) is computed.
+  FogSettings fog = {};    ///< How light in the scene's fog (Scene::fog) is computed.
   std::uint32_t seed = 1;  ///< Of all random numbers; frames of other seeds differ in noise.
 };
 

@@ -49,7 +49,8 @@ class World {
   /// Number of updates that changes_since can return.
   static constexpr std::size_t kLogLength = 256;
 
-  /// Builds everything. The scene must be one that validate accepts. Where several emissive
+  /// Builds everything. Throws std::invalid_argument with the reason where validate does not accept
+  /// the scene. Where several emissive
   /// triangles, or more than 16 point and spot lights, can be chosen from, this learns from up to
   /// half a million rays which surfaces see them (a tenth of a second or two). On a device
   /// (lambent/vulkan.h) rays are traced there, and passes that can run there do; null: on the

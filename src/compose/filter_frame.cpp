@@ -30,14 +30,15 @@ void add_excess(const DenoiseView& view, std::span<const vec3> excess, std::span
 
 /// Filters the light that coats reflect, between pixels whose lobes overlap. Returns whether rays
 /// light any coat.
-bool filter_lobes(DenoiseView view, FilteredPixels& pixels, FilteredCoats& coats) {
+bool filter_lobes(DenoiseView view, const DenoiseSettings& settings, FilteredPixels& pixels,
+                  FilteredCoats& coats) {
   const auto shines = [](float alpha) { return alpha > 0.0f; };
   const bool any = std::any_of(coats.alphas.begin(), coats.alphas.end(), shines);
   coats.filtered.resize(any ? coats.light.size() : 0);
   if (!any) return false;
   view.lobes = {pixels.to_viewer_ws, coats.alphas, coats.inverse_distances};
-  [[maybe_unused]] const Expected<void> done =
-      pixels.denoiser.filter(view, {coats.light, {}, {}}, geometric_denoising(), coats.filtered);
+  [[maybe_unused]] const Expected<void> done = pixels.denoiser.filter(
+      view, {.light = coats.light, .variance = coats.variance}, settings, coats.filtered);
   assert(done);  // sizes are the view's
   add_excess(view, coats.excess, {}, excess_denoising(), pixels, coats.filtered);
   return true;
@@ -48,7 +49,7 @@ void filter_mirrored(DenoiseView view, FilteredPixels& pixels) {
   view.positions_ws = pixels.mirrored_positions_ws;
   view.depths = pixels.mirrored_depths;
   view.normals_ws = pixels.mirrored.normals_ws;
-  filter_lobes(view, pixels, pixels.mirrored);
+  filter_lobes(view, geometric_denoising(), pixels, pixels.mirrored);
 }
 
 /// Filters the light of emitters on the surfaces that mirrors show.
@@ -69,11 +70,13 @@ void filter_mirrored_emitters(DenoiseView view, Denoiser& denoiser,
 
 /// Filters what coats, clearcoats and coats in mirrors reflect, and highlights of emitters. As
 /// shadows may fall on highlights, pixels that differ by more than noise are not averaged.
-void filter_coats(DenoiseView view, FilteredPixels& pixels) {
+/// `samples`: the picture's samples of a pixel.
+void filter_coats(DenoiseView view, int samples, FilteredPixels& pixels) {
   view.normals_ws = pixels.clearcoats.normals_ws;
-  const bool any_clearcoats = filter_lobes(view, pixels, pixels.clearcoats);
+  const bool any_clearcoats =
+      filter_lobes(view, reflection_denoising(samples), pixels, pixels.clearcoats);
   view.normals_ws = pixels.normals_ws;
-  const bool any_coats = filter_lobes(view, pixels, pixels.coats);
+  const bool any_coats = filter_lobes(view, reflection_denoising(samples), pixels, pixels.coats);
   filter_mirrored(view, pixels);
   if (!(any_clearcoats || any_coats) || pixels.highlights.empty()) {
     pixels.filtered_highlights = pixels.highlights;
@@ -168,7 +171,7 @@ void filter_pixels(const FrameRequest& request, FilteredPixels& pixels) {
     assert(done);
   }
   filter_mirrored_emitters(view, pixels.denoiser, pixels.mirrored_emitters);
-  filter_coats(view, pixels);
+  filter_coats(view, request.settings.samples, pixels);
   filter_through(view, pixels.denoiser, pixels.through);
 }
 

@@ -22,10 +22,13 @@ struct FilteredCoats {
   std::vector<glm::vec3> normals_ws;     ///< Clearcoats' normals; empty for coats.
   std::vector<float> alphas;             ///< GGX widths; 0 where no rays light a coat.
   std::vector<float> inverse_distances;  ///< See CoatGuide.
-  std::vector<glm::vec3> filtered;       ///< Both once filtered; empty where there is none.
+  /// Of the luminance of `light` as one ray brings it, or as many rays as there are averaged
+  /// frames: neighbours share their rays, so that the light of each is that of one. Empty: unknown.
+  std::vector<float> variance;
+  std::vector<glm::vec3> filtered;  ///< Both once filtered; empty where there is none.
 
   /// Makes room for this many pixels; 0 for none.
-  void resize(std::size_t pixels);
+  void resize(std::size_t pixels, bool has_variance);
 };
 
 /// The light of emitters on the surfaces that mirrors show, one entry a pixel. See

@@ -26,10 +26,12 @@ struct FilteredPixelsRecord {
   FloatArray emitter_levels;
   Vec3Array coats;
   Vec3Array coat_excess;
+  FloatArray coat_variance;
   Vec3Array coat_albedo;
   LobeGuideArray coat_lobes;  ///< Sharpness 0 where no rays light a coat.
   Vec3Array clearcoats;       ///< Like the coats' arrays, but with normals.
   Vec3Array clearcoat_excess;
+  FloatArray clearcoat_variance;
   Vec3Array clearcoat_albedo;
   Vec3Array clearcoat_normals_ws;
   LobeGuideArray clearcoat_lobes;

@@ -118,7 +118,7 @@ struct FrameKernels {
   vulkan::Kernel scale_layers{device, shaders::scale_layers_comp(), "scale layers"};
 };
 
-/// Light that is filtered, of the traced rows: 392 bytes a pixel, and 168 more where mirrors may
+/// Light that is filtered, of the traced rows: 400 bytes a pixel, and 168 more where mirrors may
 /// show coats and light of emitters. See FilteredPixelsRecord.
 struct FilteredBuffers {
   FilteredPixelsRecord record;
@@ -126,8 +126,8 @@ struct FilteredBuffers {
   vulkan::Buffer positions_ws, normals_ws, geometric_normals_ws, depths;
   vulkan::Buffer gathered, gathered_variance, excess, looked_up, indirect_albedo, received_weight;
   vulkan::Buffer emitters, emitter_variance, emitter_albedo, emitter_levels;
-  vulkan::Buffer coats, coat_excess, coat_albedo, coat_lobes;
-  vulkan::Buffer clearcoats, clearcoat_excess, clearcoat_albedo;
+  vulkan::Buffer coats, coat_excess, coat_variance, coat_albedo, coat_lobes;
+  vulkan::Buffer clearcoats, clearcoat_excess, clearcoat_variance, clearcoat_albedo;
   vulkan::Buffer clearcoat_normals_ws, clearcoat_lobes;
   vulkan::Buffer highlights, highlight_albedo, highlight_lobes;
   vulkan::Buffer filtered_gathered, filtered_emitters, filtered_coats, filtered_highlights;

@@ -80,11 +80,13 @@ void FramePassesVulkan::begin_filter() {
   const std::size_t coated = filters_coats() ? pixels : 0;
   r.coats.address = room(coated, sizeof(vec3), f.coats);
   r.coat_excess.address = room(coated, sizeof(vec3), f.coat_excess);
+  r.coat_variance.address = room(coated, sizeof(float), f.coat_variance);
   r.coat_albedo.address = room(coated, sizeof(vec3), f.coat_albedo);
   r.coat_lobes.address = room(coated, sizeof(LobeGuide), f.coat_lobes);
   const std::size_t clearcoated = filters_clearcoats(*request_) ? pixels : 0;
   r.clearcoats.address = room(clearcoated, sizeof(vec3), f.clearcoats);
   r.clearcoat_excess.address = room(clearcoated, sizeof(vec3), f.clearcoat_excess);
+  r.clearcoat_variance.address = room(clearcoated, sizeof(float), f.clearcoat_variance);
   r.clearcoat_albedo.address = room(clearcoated, sizeof(vec3), f.clearcoat_albedo);
   r.clearcoat_normals_ws.address = room(clearcoated, sizeof(vec3), f.clearcoat_normals_ws);
   r.clearcoat_lobes.address = room(clearcoated, sizeof(LobeGuide), f.clearcoat_lobes);
@@ -169,17 +171,19 @@ void FramePassesVulkan::denoise_coats(const DenoiseViewOnDevice& view) {
     const FilteredPixelsRecord& r = memory_.filtered.record;
     DenoiseViewOnDevice of_lobes = view;
     of_lobes.lobes = r.coat_lobes;
+    const DenoiseSettings settings = reflection_denoising(request_->settings.samples);
     const auto filter = [&](const DenoiseViewOnDevice& with_lobes, Vec3Array light,
-                            Vec3Array excess, Vec3Array filtered) {
-      memory_.denoiser.record(to, with_lobes, {light}, geometric_denoising(), filtered);
+                            FloatArray variance, Vec3Array excess, Vec3Array filtered) {
+      memory_.denoiser.record(to, with_lobes, {light, {}, variance}, settings, filtered);
       memory_.denoiser.record(to, with_lobes, {excess}, excess_denoising(), filtered, true);
     };
-    filter(of_lobes, r.coats, r.coat_excess, r.filtered_coats);
+    filter(of_lobes, r.coats, r.coat_variance, r.coat_excess, r.filtered_coats);
     if (filters_clearcoats(*request_)) {
       DenoiseViewOnDevice of_clearcoats = view;
       of_clearcoats.normals_ws = r.clearcoat_normals_ws;
       of_clearcoats.lobes = r.clearcoat_lobes;
-      filter(of_clearcoats, r.clearcoats, r.clearcoat_excess, r.filtered_clearcoats);
+      filter(of_clearcoats, r.clearcoats, r.clearcoat_variance, r.clearcoat_excess,
+             r.filtered_clearcoats);
     }
     if (filters_mirrored_light(*request_)) {
       DenoiseViewOnDevice of_images = view;

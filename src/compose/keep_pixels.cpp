@@ -58,6 +58,7 @@ void keep_coats(const KeptBand& band, const GBuffer& surfaces, const CoatLight& 
       if (!coats.normals_ws.empty()) coats.normals_ws[pixel] = surface.normal_ws;
       coats.alphas[pixel] = surface.reflectance.alpha;
       coats.inverse_distances[pixel] = guide.inverse_distance;
+      coats.variance[pixel] = variance_of_ray(guide, coats.light[pixel]);
     }
   });
 }
@@ -68,7 +69,7 @@ void keep_mirrored(const KeptBand& band, const CameraRecord& camera, std::size_t
                    FilteredPixels& kept) {
   const GBuffer& gbuffer = band.light.gbuffer;
   FilteredCoats& coats = kept.mirrored;
-  coats.resize(pixels);
+  coats.resize(pixels, /*has_variance=*/false);
   coats.normals_ws.resize(pixels);
   kept.mirrored_positions_ws.resize(pixels);
   kept.mirrored_depths.resize(pixels);
@@ -132,8 +133,8 @@ void keep_mirrored_emitters(const KeptBand& band, const CameraRecord& camera, st
 void keep_all_coats(const KeptBand& band, std::size_t pixels, FilteredPixels& kept) {
   const BandToFilter& light = band.light;
   const GBuffer& gbuffer = light.gbuffer;
-  kept.coats.resize(light.coats != nullptr ? pixels : 0);
-  kept.clearcoats.resize(light.filters_clearcoats ? pixels : 0);
+  kept.coats.resize(light.coats != nullptr ? pixels : 0, /*has_variance=*/true);
+  kept.clearcoats.resize(light.filters_clearcoats ? pixels : 0, /*has_variance=*/true);
   kept.clearcoats.normals_ws.resize(kept.clearcoats.light.size());
   if (light.coats == nullptr) return;
   keep(gbuffer, gbuffer.to_viewer_ws, band.first, pixels, kept.to_viewer_ws);
@@ -198,12 +199,13 @@ void MirroredEmitterPixels::resize(std::size_t pixels, bool has_variance) {
   albedo.resize(pixels);
 }
 
-void FilteredCoats::resize(std::size_t pixels) {
+void FilteredCoats::resize(std::size_t pixels, bool has_variance) {
   light.resize(pixels);
   excess.resize(pixels);
   albedo.resize(pixels);
   alphas.resize(pixels);
   inverse_distances.resize(pixels);
+  variance.resize(has_variance ? pixels : 0);
 }
 
 void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilter& light,

@@ -98,6 +98,12 @@ LAMBENT_FN MirroredEmitters mirrored_emitters(vec3 position_ws, vec3 normal_ws,
   return mirrored;
 }
 
+/// FilteredCoats::variance of filtered light of a coat.
+LAMBENT_FN float variance_of_ray(CoatGuide guide, vec3 light) {
+  float level = luminance(light);
+  return guide.ray_variance * level * level;
+}
+
 /// The light of a coat that is filtered apart from its excess. Rounding may make the excess the
 /// larger of the two.
 LAMBENT_FN vec3 without_excess(vec3 light, vec3 excess) {

@@ -10,7 +10,7 @@
 //   LAMBENT_REAL_FN          before a function
 //   LAMBENT_UNROLL_TAPS      before the loop over neighbours
 //   Real zero_unless_positive(Real condition, Real value)
-//   Real larger(Real a, Real b)
+//   Real larger(Real a, Real b), Real smaller(Real a, Real b)
 //   Real fetch_guide(int plane, int x, int y)
 //       a plane of the guide (atrous_pass.h) at the pixel that is offset from this one by (x, y)
 //   Real fetch_light(int plane, int x, int y)   the same for the planes of light (atrous_pass.h)
@@ -76,6 +76,17 @@ LAMBENT_REAL_FN PixelLobe lobe_at(int x, int y) {
   return lobe;
 }
 
+/// Exponent of a neighbour's weight by what its lobe shows: the smaller one of what is near and,
+/// where the pass has far lobes, of what is far. `of_light`: difference_of_light() of the two.
+LAMBENT_REAL_FN Real difference_of_reflections(AtrousPass by, PixelLobe here, PixelLobe there,
+                                               Real3 to_neighbour, Real3 across_ws, Real of_light) {
+  Real as_near = difference_of_lobes(by.lobe_scale, here, there, to_neighbour, across_ws);
+  if (by.far_lobes == kNoFarLobes) return as_near;
+  Real as_far = difference_of_far_lobes(by.far_lobe_scale, here, there);
+  if (by.far_lobes == kFarLobesWithinNoise) as_far += of_light;
+  return smaller(as_near, as_far);
+}
+
 /// The pixel's light from the weighted sums over its neighbours.
 LAMBENT_REAL_FN AtrousLight divided_sums(AtrousPass by, AtrousLight own, AtrousLight sum,
                                          Real weights) {
@@ -128,17 +139,20 @@ LAMBENT_REAL_FN AtrousLight filtered_pixel(AtrousPass by) {
     AtrousLight neighbour = light_at(by, x * by.apart, y * by.apart);
     Real cosine = dot(here.normal_ws, there.normal_ws);
     Real difference = difference_of_surfaces(by, here, plane_scale, there, cosine);
+    Real of_light = own.spread * 0.0f;
+    if (by.geometric == 0u || by.far_lobes == kFarLobesWithinNoise) {
+      of_light = difference_of_light(by, own_luminance - filtered_luminance(by, neighbour),
+                                     own.spread * own.share, neighbour.spread * neighbour.share);
+    }
     if (by.has_lobes != 0u) {
-      difference += difference_of_lobes(by.lobe_scale, lobe, lobe_at(x * by.apart, y * by.apart),
-                                        there.position_ws - here.position_ws, across_ws);
+      difference +=
+          difference_of_reflections(by, lobe, lobe_at(x * by.apart, y * by.apart),
+                                    there.position_ws - here.position_ws, across_ws, of_light);
     }
     if (by.checks_steps != 0u) {
       difference += step_before(there, guide_at(x * (by.apart - 1), y * (by.apart - 1)));
     }
-    if (by.geometric == 0u) {
-      difference += difference_of_light(by, own_luminance - filtered_luminance(by, neighbour),
-                                        own.spread * own.share, neighbour.spread * neighbour.share);
-    }
+    if (by.geometric == 0u) difference += of_light;
     Real weight = falloff(difference) * (x == 0 || y == 0 ? 0.5f : 0.25f);
     weight = zero_unless_positive(cosine, weight);
     if (by.has_levels != 0u) {

@@ -53,6 +53,9 @@ struct PixelLanes {
   LAMBENT_FORCE_INLINE static Lanes larger(Lanes a, Lanes b) {
     return a > b ? a : b;
   }
+  LAMBENT_FORCE_INLINE static Lanes smaller(Lanes a, Lanes b) {
+    return a < b ? a : b;
+  }
   LAMBENT_FORCE_INLINE Lanes fetch_guide(int plane, int x, int y) const {
     Lanes lanes;
     load(lanes, guide.at(plane) + y * guide_row + x);
@@ -94,12 +97,13 @@ struct PixelLanes {
 /// Filters a row with flags that are compile-time constants, so that loops have no branches.
 LAMBENT_FORCE_INLINE void filter_lanes(AtrousPass by, const AtrousRow& row, uint geometric,
                                        uint has_base, uint has_levels, uint has_lobes,
-                                       uint checks_steps = 0) {
+                                       uint checks_steps = 0, uint far_lobes = kNoFarLobes) {
   by.geometric = geometric;
   by.checks_steps = checks_steps;
   by.has_base = has_base;
   by.has_levels = has_levels;
   by.has_lobes = has_lobes;
+  by.far_lobes = far_lobes;
   for (int i = 0; i < row.count; i += kLanes) {
     const float* lobes = has_lobes != 0 ? row.lobes.first + i : nullptr;
     PixelLanes pixels{{row.guide.first + i, row.guide.stride},
@@ -119,9 +123,18 @@ LAMBENT_FORCE_INLINE void filter_steps(const AtrousPass& by, const AtrousRow& ro
   filter_lanes(by, row, 1, 0, 0, 0, 1);
 }
 
+/// Filters a row of a pass that checks steps and compares no light, or that of far lobes alone.
+LAMBENT_FORCE_INLINE void filter_lobes(const AtrousPass& by, const AtrousRow& row) {
+  if (by.far_lobes == kFarLobes) return filter_lanes(by, row, 1, 0, 0, 1, 1, kFarLobes);
+  if (by.far_lobes == kFarLobesWithinNoise) {
+    return filter_lanes(by, row, 1, 0, 0, 1, 1, kFarLobesWithinNoise);
+  }
+  filter_lanes(by, row, 1, 0, 0, 1, 1);
+}
+
 static void filter_row(const AtrousPass& by, const AtrousRow& row) {
   if (by.checks_steps != 0) {
-    by.has_lobes != 0 ? filter_lanes(by, row, 1, 0, 0, 1, 1) : filter_steps(by, row);
+    by.has_lobes != 0 ? filter_lobes(by, row) : filter_steps(by, row);
   } else if (by.has_lobes != 0) {
     by.geometric != 0 ? filter_lanes(by, row, 1, 0, 0, 1) : filter_lanes(by, row, 0, 0, 0, 1);
   } else if (by.has_base != 0) {

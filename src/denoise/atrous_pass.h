@@ -102,6 +102,12 @@ LAMBENT_FN float mirrored_share(int beyond, int apart) {
   return 1.0f + 2.0f * float(beyond) / float(apart);
 }
 
+// Values of AtrousPass::far_lobes: neighbours whose lobes point the same way but, as something is
+// near, see different parts of it,
+const uint kNoFarLobes = 0u;           // count as far as these parts are the same.
+const uint kFarLobes = 1u;             // count as if it were infinitely far.
+const uint kFarLobesWithinNoise = 2u;  // count so where light differs by no more than its noise.
+
 /// Parameters of a pass of the filter.
 struct AtrousPass {
   int apart;               ///< Distance between neighbours [pixels].
@@ -109,6 +115,7 @@ struct AtrousPass {
   float plane_scale;       ///< 1 / DenoiseSettings::plane_tolerance.
   float contrast_scale;    ///< 1 / DenoiseSettings::noise_tolerance^2.
   float lobe_scale;        ///< 1 / DenoiseSettings::lobe_share^2.
+  float far_lobe_scale;    ///< 1 / DenoiseSettings::far_lobe_share^2.
   uint geometric;          ///< 1: the light of pixels is not compared.
   uint checks_steps;       ///< 1: neighbours beyond a step count less; see step_before().
   uint ends_estimate;      ///< 1: after this pass, the variance is known from neighbours.
@@ -117,6 +124,7 @@ struct AtrousPass {
   uint has_base;           ///< 1: there is a base.
   uint has_levels;         ///< 1: light is divided by a level.
   uint has_lobes;          ///< 1: lobes reflect the light; 0: it comes from the hemisphere.
+  uint far_lobes;          ///< kNoFarLobes, ...
 };
 
 /// Over which neighbours light that a lobe reflects may be averaged.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "denoise/denoise_passes.h"
@@ -16,6 +17,13 @@ constexpr float kLeastLobeShare = 1.0f / 1024.0f, kMostLobeShare = 16.0f;
 // in the light around them. Twice that takes more noise off, and lights what should be dark beside
 // narrow reflections (docs/math.md, "Rare bright rays").
 constexpr float kExcessLobeShare = 1.5f;
+// Of what is near, less: twice this share puts light on dark strips between bright ones.
+constexpr float kFarExcessLobeShare = 0.25f;
+
+// Light that differs by less than its noise is averaged over this share of lobes' width. Twice that
+// takes another tenth of the noise off metal that sees metal, but may widen reflections by a
+// quarter.
+constexpr float kFarLobeShare = 1.0f;
 
 Expected<void> check_range(const char* name, bool fine, const char* range) {
   if (fine) return {};
@@ -37,7 +45,9 @@ Expected<void> check(const DenoiseSettings& s) {
                   s.noise_tolerance > 0.0f && s.noise_tolerance <= kMostSharpness,
                   "above 0 to 1024"),
       check_range("lobe share", s.lobe_share >= kLeastLobeShare && s.lobe_share <= kMostLobeShare,
-                  "1/1024 to 16")};
+                  "1/1024 to 16"),
+      check_range("far lobe share", s.far_lobe_share >= 0.0f && s.far_lobe_share <= kMostLobeShare,
+                  "0 to 16")};
   for (const Expected<void>& fine : checks) {
     if (!fine) return fine;
   }
@@ -61,6 +71,14 @@ DenoiseSettings geometric_denoising() {
 DenoiseSettings excess_denoising() {
   DenoiseSettings settings = geometric_denoising();
   settings.lobe_share = kExcessLobeShare;
+  settings.far_lobe_share = kFarExcessLobeShare;
+  return settings;
+}
+
+DenoiseSettings reflection_denoising(int samples) {
+  DenoiseSettings settings = geometric_denoising();
+  settings.far_lobe_share = kFarLobeShare;
+  settings.noise_tolerance /= std::sqrt(static_cast<float>(samples));
   return settings;
 }
 
@@ -78,6 +96,7 @@ DenoiseSettings firefly_denoising(DenoiseSettings settings) {
 std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has_base,
                                        NoiseFrom noise_from, bool has_levels, bool has_lobes) {
   const bool measured = noise_from == NoiseFrom::samples;
+  const bool all_geometric = settings.geometric_passes == settings.passes;
   // Light over its level has few rare bright rays, and its samples measure its variance. So the
   // first pass averages variances alone, and not even the smallest shadows are blurred (Schied et
   // al. 2017, sec. 4.4: variances are filtered before they are used)
@@ -86,20 +105,23 @@ std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has
   // the others. Once the first pass has averaged variances, the next ones spread such light over
   // neighbours, which the sum of both variances allows, as that of the bright pixel is large; they
   // leave edges of light that exceed its noise
-  const bool tells_edges = has_base && measured && settings.geometric_passes < settings.passes;
+  const bool tells_edges = has_base && measured && !all_geometric;
   const float inverse_share = 1.0f / settings.lobe_share;
+  const bool has_far_lobes = has_lobes && settings.far_lobe_share > 0.0f;
+  const float inverse_far_share = has_far_lobes ? 1.0f / settings.far_lobe_share : 0.0f;
   std::vector<AtrousPass> passes;
   for (int i = 0; i < settings.passes; ++i) {
-    AtrousPass pass;
+    AtrousPass pass{};
     pass.apart = 1 << (knows_noise ? std::max(i - 1, 0) : i);
     pass.normal_sharpness = settings.normal_sharpness;
     pass.plane_scale = 1.0f / settings.plane_tolerance;
     pass.contrast_scale = 1.0f / (settings.noise_tolerance * settings.noise_tolerance);
     pass.lobe_scale = inverse_share * inverse_share;
+    pass.far_lobe_scale = inverse_far_share * inverse_far_share;
     const bool first = i < settings.geometric_passes;
     pass.geometric = first && !(tells_edges && i > 0) ? 1 : 0;
     // Passes that compare light keep that of a strip from the surface beside it by its brightness
-    pass.checks_steps = !measured && settings.geometric_passes == settings.passes ? 1 : 0;
+    pass.checks_steps = (!measured || has_lobes) && all_geometric ? 1 : 0;
     pass.ends_estimate =
         noise_from == NoiseFrom::neighbours && i == settings.geometric_passes - 1 ? 1 : 0;
     pass.only_spread = knows_noise && i == 0 ? 1 : 0;
@@ -107,6 +129,7 @@ std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has
     pass.has_base = has_base ? 1 : 0;
     pass.has_levels = has_levels ? 1 : 0;
     pass.has_lobes = has_lobes ? 1 : 0;
+    if (has_far_lobes) pass.far_lobes = measured ? kFarLobesWithinNoise : kFarLobes;
     passes.push_back(pass);
   }
   return passes;

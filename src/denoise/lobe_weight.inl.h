@@ -22,19 +22,30 @@ struct PixelLobe {
   Real inverse_distance;
 };
 
+/// Exponent of a neighbour's weight by the width of its lobe: lobes of different widths show
+/// different parts of the scene.
+LAMBENT_REAL_FN Real difference_of_widths(PixelLobe here, PixelLobe there) {
+  Real widths =
+      (here.sharpness - there.sharpness) / (here.sharpness + there.sharpness + kLeastLobeSharpness);
+  return kWidthSharpness * (widths * widths);
+}
+
 /// Exponent of a neighbour's weight by what its lobe shows. A point that one pixel's lobe shows
 /// lies, as seen from the other pixel, in another direction than the one in which that pixel's lobe
 /// points. The smaller of the two distances and the sharper of the two lobes count, so that the
-/// weight is the same in both directions. Lobes of different widths show different parts of the
-/// scene.
+/// weight is the same in both directions.
 LAMBENT_REAL_FN Real difference_of_lobes(float lobe_scale, PixelLobe here, PixelLobe there,
                                          Real3 to_neighbour, Real3 across_ws) {
   Real3 apart = to_neighbour * larger(here.inverse_distance, there.inverse_distance) +
                 (there.mirror_ws - here.mirror_ws);
   Real sideways = dot(apart, across_ws);
-  Real widths =
-      (here.sharpness - there.sharpness) / (here.sharpness + there.sharpness + kLeastLobeSharpness);
   Real sharpness = larger(here.sharpness, there.sharpness) * lobe_scale;
-  return (dot(apart, apart) + sideways * sideways) * sharpness +
-         kWidthSharpness * (widths * widths);
+  return (dot(apart, apart) + sideways * sideways) * sharpness + difference_of_widths(here, there);
+}
+
+/// The same of lobes that show what is infinitely far away.
+LAMBENT_REAL_FN Real difference_of_far_lobes(float lobe_scale, PixelLobe here, PixelLobe there) {
+  Real3 apart = there.mirror_ws - here.mirror_ws;
+  Real sharpness = larger(here.sharpness, there.sharpness) * lobe_scale;
+  return dot(apart, apart) * sharpness + difference_of_widths(here, there);
 }

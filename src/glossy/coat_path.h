@@ -179,6 +179,7 @@ LAMBENT_DEVICE_ARRAY(OwnRayLightArray, OwnRayLight, 4)
 struct CoatGuide {
   vec3 excess;             ///< Part of the light, see kMaxShareOfOthers [W/(m^2 sr)].
   float inverse_distance;  ///< One over the distance to what the coat reflects [1/m].
+  float ray_variance;      ///< See ReflectedRays::ray_variance.
 };
 LAMBENT_DEVICE_ARRAY(CoatGuideArray, CoatGuide, 4)
 

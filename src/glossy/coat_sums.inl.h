@@ -54,11 +54,14 @@ struct CoatSums {
   Real fitting;           ///< Part of `pixels` whose lobes match the receiver's.
   Real3 brightest;        ///< The part of `light` from the ray that brought the most.
   Real brightest_weight;  ///< Its part of `weight`.
+  Real squared_weights;   ///< Sum of the rays' squared weights.
+  Real squares;           ///< Sum of the squared luminances that rays add, over their weights.
 };
 
 /// Sums over no ray.
 LAMBENT_REAL_FN CoatSums no_coat_sums() {
-  CoatSums none = {Real3(0.0f), Real3(0.0f), 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, Real3(0.0f), 0.0f};
+  CoatSums none = {Real3(0.0f), Real3(0.0f), 0.0f, 0.0f, 0.0f, 0.0f,
+                   0.0f,        Real3(0.0f), 0.0f, 0.0f, 0.0f};
   return none;
 }
 
@@ -103,7 +106,11 @@ LAMBENT_REAL_FN void add_light_of_ray(CoatReceiver at, LobeValue lobe, Real3 dir
   sums.brightest = select(gain > 0.0f, light, sums.brightest);
   sums.brightest_weight = select(gain > 0.0f, weight, sums.brightest_weight);
   Real density = sampled_density(ray.apart_luminance, at.density_scale);
-  sums.emission += reflected * (ray.apart * found_light_weight(lobe.pdf, density));
+  Real3 emission = reflected * (ray.apart * found_light_weight(lobe.pdf, density));
+  sums.emission += emission;
+  Real level = luminance(light + emission);
+  sums.squared_weights += weight * weight;
+  sums.squares += level * level / max(weight, kLeastPixelWeight);
 }
 
 /// Adds the light of a neighbour's ray, and the weight of the receiver's own ray beside it.

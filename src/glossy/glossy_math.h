@@ -51,6 +51,9 @@ const float kMaxReuseWeight = 4.0f;
 /// albedo.
 const float kRaysOfMean = 4.0f;
 
+/// From this many rays of equal weight their own variance counts, not one that is assumed.
+const float kRaysOfVariance = 8.0f;
+
 /// Neighbours of less weight are skipped: the reciprocal of their weight would be infinite.
 const float kLeastPixelWeight = 1e-12f;
 
@@ -271,7 +274,20 @@ struct ReflectedRays {
   vec3 excess;  ///< The part of it that is excess, see kMaxShareOfOthers.
   vec3 own;     ///< The estimate of the receiver's own ray alone; valid where own_share is not 0.
   float own_share;  ///< Share of `own` in the light.
+  /// Variance of the luminance that one ray brings, as a share of the squared mean; 0 where the
+  /// receiver's own ray is all that it reflects.
+  float ray_variance;
 };
+
+/// ReflectedRays::ray_variance, from the sums over a receiver's rays.
+LAMBENT_FN float ray_variance_of(CoatSums sums) {
+  float total = luminance(sums.light + sums.emission);
+  if (total <= 0.0f) return 0.0f;
+  float variance = max(sums.squares * sums.weight / (total * total) - 1.0f, 0.0f);
+  // Of few rays the variance is not known: that of rays of which each second one finds light
+  float rays = sums.weight * sums.weight / max(sums.squared_weights, kLeastPixelWeight);
+  return max(variance, clamp((kRaysOfVariance - rays) / (kRaysOfVariance - 1.0f), 0.0f, 1.0f));
+}
 
 /// The part of the brightest ray's light that is excess. A ray may always bring its share of the
 /// weights: the rays of pixels whose lobes fit no neighbour's have most of them.
@@ -297,7 +313,7 @@ LAMBENT_FN vec3 excess_of(CoatSums sums) {
 /// pixels alone.
 LAMBENT_FN ReflectedRays reflected_rays(CoatReceiver at, CoatSums sums) {
   bool has_own = at.own.pdf != 0.0f;
-  ReflectedRays rays = {vec3(-1.0f), vec3(0.0f), vec3(0.0f), has_own ? 1.0f : 0.0f};
+  ReflectedRays rays = {vec3(-1.0f), vec3(0.0f), vec3(0.0f), has_own ? 1.0f : 0.0f, 0.0f};
   if (sums.pixels <= 0.0f) {
     if (has_own) rays.light = rays.own = reflected_own_ray(at);
     return rays;
@@ -320,6 +336,7 @@ LAMBENT_FN ReflectedRays reflected_rays(CoatReceiver at, CoatSums sums) {
   rays.own_share = 1.0f - known;
   rays.light = mix(unknown, sums.light * scale + sums.emission / sums.pixels, known);
   rays.excess = known * scale * excess_of(sums);
+  rays.ray_variance = known * ray_variance_of(sums);
   return rays;
 }
 

@@ -113,6 +113,8 @@ HWY_INLINE void store_sums(const CoatSums& from, const SumPlanes& sums) {
   sums.put(kSumFitting, from.fitting);
   sums.put(kSumBrightest, from.brightest);
   sums.put(kSumBrightestWeight, from.brightest_weight);
+  sums.put(kSumSquaredWeights, from.squared_weights);
+  sums.put(kSumSquares, from.squares);
 }
 
 }  // namespace

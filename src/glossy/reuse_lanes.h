@@ -54,7 +54,9 @@ enum SumPlane : int {
   kSumFitting = 10,
   kSumBrightest = 11,
   kSumBrightestWeight = 14,
-  kSumPlanes = 15
+  kSumSquaredWeights = 15,
+  kSumSquares = 16,
+  kSumPlanes = 17
 };
 
 /// Rows of planes. Each row is padded with zeros, which mean no ray, as lanes and neighbours reach

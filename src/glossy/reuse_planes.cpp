@@ -49,11 +49,12 @@ void set_receiver(RowPlanes& receivers, int row, int x, const CoatReceiver& at) 
 }
 
 CoatSums sums_of(const RowPlanes& sums, int row, int x) {
-  return {three_of(sums, row, kSumLight, x),   three_of(sums, row, kSumEmission, x),
-          sums.at(row, kSumWeight)[x],         sums.at(row, kSumSchlick)[x],
-          sums.at(row, kSumOwnWeight)[x],      sums.at(row, kSumPixels)[x],
-          sums.at(row, kSumFitting)[x],        three_of(sums, row, kSumBrightest, x),
-          sums.at(row, kSumBrightestWeight)[x]};
+  return {three_of(sums, row, kSumLight, x),    three_of(sums, row, kSumEmission, x),
+          sums.at(row, kSumWeight)[x],          sums.at(row, kSumSchlick)[x],
+          sums.at(row, kSumOwnWeight)[x],       sums.at(row, kSumPixels)[x],
+          sums.at(row, kSumFitting)[x],         three_of(sums, row, kSumBrightest, x),
+          sums.at(row, kSumBrightestWeight)[x], sums.at(row, kSumSquaredWeights)[x],
+          sums.at(row, kSumSquares)[x]};
 }
 
 }  // namespace lambent

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lambent/world.h"
 
-#include <cassert>
 #include <deque>
+#include <stdexcept>
 #include <utility>
 
 #include "core/stopwatch.h"
@@ -115,7 +115,9 @@ void World::State::follow_light_visibility(const World& world, const SceneEdits&
 }
 
 World::World(const Scene& scene, std::shared_ptr<vulkan::Device> device) : scene_(&scene) {
-  assert(validate(scene));
+  if (const Expected<void> fine = validate(scene); !fine) {
+    throw std::invalid_argument(fine.error().message());
+  }
   state_ = std::make_unique<State>(scene, std::move(device));
   state_->set_light_visibility(learn_light_visibility(*this));
 }

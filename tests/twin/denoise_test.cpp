@@ -154,8 +154,8 @@ TEST_F(DenoiseTwin, FiltersTheSameLightOfLobes) {
     for (const bool measured : {false, true}) {
       NoisyLight light{wall.light, {}, {}};
       if (measured) light.variance = wall.variance;
-      for (const DenoiseSettings& settings :
-           {geometric_denoising(), emitter_denoising(), excess_denoising()}) {
+      for (const DenoiseSettings& settings : {geometric_denoising(), emitter_denoising(),
+                                              excess_denoising(), reflection_denoising(4)}) {
         const std::vector<vec3> expected = on_host(wall.view_with_lobes(), light, settings);
         EXPECT_LT(difference(expected, on_device(wall.view_with_lobes(), light, settings)),
                   kTolerance)

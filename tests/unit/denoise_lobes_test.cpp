@@ -50,6 +50,13 @@ struct Coat {
     RandomStream random = make_random_stream(1, 2, 3);
     for (vec3& e : light) e = vec3(next_uniform(random) < 0.125f ? 8.0f : 0.0f);
   }
+  /// Filters light of this variance.
+  std::vector<vec3> filtered(float variance, const DenoiseSettings& by) const {
+    std::vector<vec3> result(light.size());
+    const std::vector<float> variances(light.size(), variance);
+    EXPECT_TRUE(Denoiser().filter(view(), {.light = light, .variance = variances}, by, result));
+    return result;
+  }
 
   int width, height;
   std::vector<vec3> positions, normals, to_viewer, light;
@@ -129,6 +136,9 @@ TEST(DenoiseLobes, SpreadsExcessBeyondTheLobe) {
   double sum = 0.0;
   for (const vec3& e : bright.filtered(excess_denoising())) sum += e.x;
   EXPECT_NEAR(sum, 1.0, 0.02);
+  // Beside what is close, half as far as other light where nothing is
+  const Coat near(200, 160, 0.02f, 1.0f, 1.0f / 0.02f);
+  EXPECT_NEAR(reach_of(near, excess_denoising()).sideways, 0.5 * of_light, 0.05 * of_light);
 }
 
 TEST(DenoiseLobes, KeepsWhatStandsCloseToTheCoat) {
@@ -138,6 +148,32 @@ TEST(DenoiseLobes, KeepsWhatStandsCloseToTheCoat) {
   const Reach closest = reach_of(Coat(160, 120, alpha, 1.0f, 1.0f / 0.02f));
   EXPECT_NEAR(near.sideways, 0.5 * far.sideways, 0.15 * far.sideways);
   EXPECT_LT(closest.sideways, 0.1);
+}
+
+TEST(DenoiseLobes, TakesNoiseOffWhatIsCloseToTheCoat) {
+  Coat coat(160, 120, 0.09f, 1.0f, 1.0f / 0.02f);
+  coat.make_noisy();
+  const Spread before = spread_of(coat.light);
+  EXPECT_GT(spread_of(coat.filtered()).deviation, 0.9 * before.deviation);
+  // Each pixel's light is as noisy as the mean of 16 rays
+  constexpr float kVarianceOfRay = 16.0f * 7.0f;
+  const Spread after = spread_of(coat.filtered(kVarianceOfRay, reflection_denoising(1)));
+  EXPECT_LT(after.deviation, 0.1 * before.deviation);
+  EXPECT_NEAR(after.mean, before.mean, 0.03 * before.mean);
+  // Of several pictures, whose mean has less noise, each keeps more
+  const Spread of_many = spread_of(coat.filtered(kVarianceOfRay, reflection_denoising(64)));
+  EXPECT_GT(of_many.deviation, 3.0 * after.deviation);
+}
+
+TEST(DenoiseLobes, KeepsWhatIsCloseToTheCoatAndStandsOutFromTheNoise) {
+  Coat coat(160, 120, 0.09f, 1.0f, 1.0f / 0.02f);
+  for (std::size_t i = 0; i < coat.light.size(); ++i) {
+    coat.light[i] = vec3(i % static_cast<std::size_t>(coat.width) < 80 ? 0.5f : 1.5f);
+  }
+  const std::vector<vec3> filtered = coat.filtered(0.01f, reflection_denoising(1));
+  for (std::size_t i = 0; i < filtered.size(); ++i) {
+    EXPECT_NEAR(filtered[i].x, coat.light[i].x, 1e-3f) << i;
+  }
 }
 
 TEST(DenoiseLobes, TakesNothingFromWhereSomethingStandsClose) {

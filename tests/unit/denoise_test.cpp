@@ -338,6 +338,8 @@ TEST(Denoise, RefusesWhatIsOutOfRange) {
   EXPECT_EQ(refused([](DenoiseSettings& s) { s.noise_tolerance = NAN; }), "noise tolerance");
   EXPECT_EQ(refused([](DenoiseSettings& s) { s.lobe_share = 1e-30f; }), "lobe share");
   EXPECT_EQ(refused([](DenoiseSettings& s) { s.lobe_share = 17.0f; }), "lobe share");
+  EXPECT_EQ(refused([](DenoiseSettings& s) { s.far_lobe_share = -0.1f; }), "far lobe share");
+  EXPECT_EQ(refused([](DenoiseSettings& s) { s.far_lobe_share = 17.0f; }), "far lobe share");
 
   const Wall wall(8, 8);
   std::vector<vec3> result(wall.light.size()), too_few(63);

@@ -208,6 +208,31 @@ TEST(FilteredFrame, ShowsRoughCoatsWithLessNoiseAndAllOfTheirLight) {
   expect_less_noise_in_reflections(LitStage(metal_cornell()));
 }
 
+/// A room of brushed metal under four small lamps. Rays that corners reflect meet metal close by,
+/// and a lamp in it now and then.
+Scene metal_room() {
+  Scene scene;
+  Material metal;
+  metal.metallic = 1.0f;
+  metal.roughness = 0.3f;
+  scene.materials = {metal, test::lambert(vec3(0.0f), vec3(20.0f))};
+  test::add_room(scene, 2.0f, 0);
+  for (const float x : {-0.5f, 0.5f}) {
+    for (const float z : {-0.5f, 0.5f}) {
+      test::add(scene, test::quad({x - 0.1f, 0.99f, z - 0.1f}, {0.2f, 0, 0}, {0, 0, 0.2f}, 1));
+    }
+  }
+  Camera camera;
+  camera.world_from_view =
+      glm::inverse(glm::lookAt(vec3(0, -0.2f, 0.9f), vec3(0.1f, -0.2f, 0), vec3(0, 1, 0)));
+  scene.cameras = {camera};
+  return scene;
+}
+
+TEST(FilteredFrame, ShowsMetalInMetalWithLessNoiseAndAllOfItsLight) {
+  expect_less_noise_in_reflections(LitStage(metal_room()));
+}
+
 TEST(FilteredFrame, ShowsRoughClearcoatsWithLessNoiseAndAllOfTheirLight) {
   expect_less_noise_in_reflections(LitStage(varnished_cornell()));
 }

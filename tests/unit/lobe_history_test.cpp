@@ -33,6 +33,7 @@ struct ReflectingFloor {
         to_viewer_ws(kPixels),
         light(kPixels),
         excess(kPixels),
+        variance(kPixels, 1.0f),
         depths(kPixels),
         alphas(kPixels, alpha),
         inverse_distances(kPixels, 1.0f / distance) {
@@ -55,10 +56,12 @@ struct ReflectingFloor {
   }
 
   SurfacesSeen surfaces() const { return {positions_ws, normals_ws, depths}; }
-  LobesSeen lobes() { return {normals_ws, to_viewer_ws, alphas, inverse_distances, light, excess}; }
+  LobesSeen lobes() {
+    return {normals_ws, to_viewer_ws, alphas, inverse_distances, light, excess, variance};
+  }
 
   std::vector<vec3> positions_ws, normals_ws, to_viewer_ws, light, excess;
-  std::vector<float> depths, alphas, inverse_distances;
+  std::vector<float> variance, depths, alphas, inverse_distances;
 };
 
 FrameAveraging averaging(const Camera& before, const Camera& now) {
@@ -104,6 +107,7 @@ TEST(LobeHistory, AveragesAllFramesOfARestingView) {
     // The mean of 1 to i
     for (const vec3& light : floor.light) ASSERT_NEAR(light.x, 0.5f * (1.0f + i), 1e-4f);
     for (const vec3& excess : floor.excess) ASSERT_NEAR(excess.x, 1.5f * (1.0f + i), 1e-3f);
+    for (const float variance : floor.variance) ASSERT_NEAR(variance, 1.0f / i, 1e-3f);
     last = next;
     before = floor;
   }

@@ -102,7 +102,7 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
   const int first_row = around.front().first_row;
   const GBuffer& pixels = band.pixels;
   reflected.light.assign(pixels.size(), vec4(0.0f));
-  reflected.guides.assign(settings.frame.denoise ? pixels.size() : 0, {vec3(0.0f), 0.0f});
+  reflected.guides.assign(settings.frame.denoise ? pixels.size() : 0, {vec3(0.0f), 0.0f, 0.0f});
   reflected.own.assign(settings.frame.coat_rays > 1 ? pixels.size() : 0, {vec3(0.0f), 0.0f});
   const bool keeps_mirrored = !in_mirrors.coats.empty();
   reflected.mirrored.assign(keeps_mirrored ? pixels.size() : 0, no_mirrored_coat());
@@ -148,7 +148,8 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
       reflected.guides[i] = {
           share * found.excess,
           seen.seen_inverse_distance(seen, {places[k], y}, static_cast<uint>(settings.sample),
-                                     static_cast<uint>(settings.frame.glossy_rows))};
+                                     static_cast<uint>(settings.frame.glossy_rows)),
+          found.ray_variance};
     }
   });
 }

@@ -137,16 +137,18 @@ void average_reflections(const FrameAveraging& by, const LightHistory& last, boo
   };
   FilteredCoats &coats = pixels.coats, &clearcoats = pixels.clearcoats;
   average_lobes({pixels.normals_ws, pixels.to_viewer_ws, coats.alphas, coats.inverse_distances,
-                 coats.light, coats.excess},
+                 coats.light, coats.excess, coats.variance},
                 last.coats, next.coats);
-  average_lobes({clearcoats.normals_ws, pixels.to_viewer_ws, clearcoats.alphas,
-                 clearcoats.inverse_distances, clearcoats.light, clearcoats.excess},
-                last.clearcoats, next.clearcoats);
+  average_lobes(
+      {clearcoats.normals_ws, pixels.to_viewer_ws, clearcoats.alphas, clearcoats.inverse_distances,
+       clearcoats.light, clearcoats.excess, clearcoats.variance},
+      last.clearcoats, next.clearcoats);
   average_lobes({pixels.normals_ws,
                  pixels.to_viewer_ws,
                  pixels.highlight_alphas,
                  pixels.highlight_inverse_distances,
                  pixels.highlights,
+                 {},
                  {}},
                 last.highlights, next.highlights);
 }

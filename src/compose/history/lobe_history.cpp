@@ -163,6 +163,7 @@ void average_reflected_light(const FrameAveraging& by, const SurfacesSeen& now,
       }
       average(last.light, found, frames, lobes.light[i]);
       if (!lobes.excess.empty()) average(last.excess, found, frames, lobes.excess[i]);
+      if (!lobes.variance.empty()) lobes.variance[i] /= frames;
       next.lobes[i] = guide;
       next.light[i] = lobes.light[i];
       if (!lobes.excess.empty()) next.excess[i] = lobes.excess[i];

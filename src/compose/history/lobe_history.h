@@ -29,6 +29,8 @@ struct LobesSeen {
   std::span<const float> alphas;  ///< GGX widths; 0: there is no lobe.
   std::span<const float> inverse_distances;
   std::span<vec3> light, excess;  ///< Replaced by the averages; `excess` may be empty.
+  /// Of `light`; replaced by that of the averages; empty: unknown.
+  std::span<float> variance = {};
 };
 
 /// How frames are averaged.

@@ -26,7 +26,9 @@ void main() {
   vec3 albedo =
       filtered_coat_albedo(coat.reflectance, dot(normal_ws, coat.to_viewer_ws), by_rays.w);
   CoatGuide guide = args.guides.at[i];
-  args.pixels.at[0].clearcoats.at[pixel] = without_excess(vec3(by_rays), guide.excess) / albedo;
+  vec3 light = without_excess(vec3(by_rays), guide.excess) / albedo;
+  args.pixels.at[0].clearcoats.at[pixel] = light;
+  args.pixels.at[0].clearcoat_variance.at[pixel] = variance_of_ray(guide, light);
   args.pixels.at[0].clearcoat_excess.at[pixel] = guide.excess / albedo;
   args.pixels.at[0].clearcoat_albedo.at[pixel] = albedo;
   args.pixels.at[0].clearcoat_normals_ws.at[pixel] = normal_ws;

@@ -23,7 +23,9 @@ bool keep_coat(uint i, uint pixel, LitPointRecord point, PixelSurfaceRecord surf
   float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
   vec3 albedo = filtered_coat_albedo(surface.reflectance, n_dot_v, by_rays.w);
   CoatGuide guide = args.coat_guides.at[i];
-  args.pixels.at[0].coats.at[pixel] = without_excess(vec3(by_rays), guide.excess) / albedo;
+  vec3 light = without_excess(vec3(by_rays), guide.excess) / albedo;
+  args.pixels.at[0].coats.at[pixel] = light;
+  args.pixels.at[0].coat_variance.at[pixel] = variance_of_ray(guide, light);
   args.pixels.at[0].coat_excess.at[pixel] = guide.excess / albedo;
   args.pixels.at[0].coat_albedo.at[pixel] = weight * albedo;
   args.pixels.at[0].coat_lobes.at[pixel] =

@@ -24,6 +24,10 @@ float larger(float a, float b) {
   return max(a, b);
 }
 
+float smaller(float a, float b) {
+  return min(a, b);
+}
+
 /// The pixel that is offset by (x, y) from this one.
 uint pixel_at(int x, int y) {
   uint column = uint(mirrored_place(pixel.x + x, int(args.width)));

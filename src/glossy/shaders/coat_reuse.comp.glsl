@@ -55,7 +55,7 @@ void main() {
   if (k >= args.count) return;
   args.light.at[k] = vec4(0.0f);
   if ((args.has & kKeepsOwn) != 0u) args.own.at[k] = OwnRayLight(vec3(0.0f), 0.0f);
-  if ((args.has & kFindsGuides) != 0u) args.guides.at[k] = CoatGuide(vec3(0.0f), 0.0f);
+  if ((args.has & kFindsGuides) != 0u) args.guides.at[k] = CoatGuide(vec3(0.0f), 0.0f, 0.0f);
   ivec2 pixel = ivec2(k % args.width, args.band_row + k / args.width);
   uint i = index_of(args, pixel);
   PixelSurfaceRecord surface = args.surfaces.at[i];
@@ -98,5 +98,6 @@ void main() {
   if ((args.has & kFindsGuides) == 0u) return;
   args.guides.at[k] =
       CoatGuide(share * found.excess,
-                seen_inverse_distance(args, pixel, args.sample_index, args.rows));
+                seen_inverse_distance(args, pixel, args.sample_index, args.rows),
+                found.ray_variance);
 }
