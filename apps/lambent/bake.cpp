@@ -30,6 +30,7 @@
 #include "lambent/step.h"
 #include "lambent/threads.h"
 #include "lambent/validators.h"
+#include "lambent/words.h"
 #include "lambent/world.h"
 
 namespace lambent::cli {
@@ -75,8 +76,9 @@ void tell_baked(const BakeOptions& options, const IrradianceField& field,
   const char* how = options.updates > 0 ? "made" : reached.settled ? "settled" : "not settled";
   std::array<char, 128> text;
   std::snprintf(text.data(), text.size(),
-                "%s after %d updates, the last of which changed the light by %.3g %%", how,
-                reached.updates, 100.0 * reached.change);
+                "%s after %s, the last of which changed the light by %.3g %%", how,
+                count_text(static_cast<std::size_t>(reached.updates), "update").c_str(),
+                100.0 * reached.change);
   tell_written(options.output, std::to_string(field.probes()) + " probes", text.data());
 }
 

@@ -104,15 +104,17 @@ struct Costs {
   }
 };
 
-/// The next picture.
-Expected<stream::Picture> next_picture(ServerSession& session) {
+/// The next picture; none where there is an interrupt.
+Expected<std::optional<stream::Picture>> next_picture(ServerSession& session,
+                                                      const InterruptGuard& guard) {
   const auto end = std::chrono::steady_clock::now() + session.timeout();
   for (;;) {
-    auto message = session.receive_until(end);
+    auto message = session.receive_until(end, guard);
     if (!message) return tl::unexpected(message.error());
     if (!*message) break;
     if (auto* picture = std::get_if<stream::Picture>(&**message)) return std::move(*picture);
   }
+  if (guard.interrupted()) return std::nullopt;
   return fail("", "", "no picture came in time", Error::Kind::failed);
 }
 
@@ -123,7 +125,7 @@ struct ReceivedFrames {
   glm::uvec2 size{0};
 };
 
-/// Writes pictures until there are enough, or the connection is lost.
+/// Writes pictures until there are enough, the connection is lost, or there is an interrupt.
 Expected<void> receive_frames(const ConnectOptions& options,
                               const std::optional<stream::CameraInput>& camera,
                               const InterruptGuard& guard, ServerSession& session,
@@ -134,19 +136,21 @@ Expected<void> receive_frames(const ConnectOptions& options,
     if (const auto sent = session.send(*camera); !sent) return sent;
   }
   const std::uint32_t first_input = camera ? kCameraInput : 0;
-  while (static_cast<int>(frames.written.size()) < options.frames && !guard.interrupted()) {
-    const auto picture = next_picture(session);
-    if (!picture) return tl::unexpected(picture.error());
-    const auto decoded = decoder->decode(picture->bytes);
+  while (static_cast<int>(frames.written.size()) < options.frames) {
+    const auto next = next_picture(session, guard);
+    if (!next) return tl::unexpected(next.error());
+    if (!*next) return {};
+    const stream::Picture& picture = **next;
+    const auto decoded = decoder->decode(picture.bytes);
     if (!decoded) return tl::unexpected(decoded.error());
-    const auto told = session.send(stream::Received{picture->number, 0.0f});
+    const auto told = session.send(stream::Received{picture.number, 0.0f});
     if (!told) return told;
-    if (picture->input < first_input) continue;  // from the camera before
+    if (picture.input < first_input) continue;  // from the camera before
     const std::string path = name_of_frame(options, frames.written.size());
     if (const auto done = write_png(path, stream::to_display(*decoded)); !done) return done;
     frames.written.push_back(path);
-    frames.costs.add(*picture);
-    frames.size = picture->size;
+    frames.costs.add(picture);
+    frames.size = picture.size;
     session.note_picture();
   }
   return {};
@@ -155,13 +159,12 @@ Expected<void> receive_frames(const ConnectOptions& options,
 /// Writes the pictures of a server, over as many connections as it takes.
 Expected<void> receive_pictures(const ConnectOptions& options,
                                 const std::optional<stream::CameraInput>& camera,
-                                ServerSession& session) {
+                                const InterruptGuard& guard, ServerSession& session) {
   ReceivedFrames frames;
-  const InterruptGuard guard;
   const auto done = session.over_connections(
       guard, [&] { return receive_frames(options, camera, guard, session, frames); });
   if (!done) return done;
-  if (frames.written.empty()) return fail("", "", "was interrupted", Error::Kind::failed);
+  if (frames.written.empty()) return {};
   tell_written(frames.written,
                pixels_text(static_cast<int>(frames.size.x), static_cast<int>(frames.size.y)),
                frames.costs.text());
@@ -206,18 +209,26 @@ Expected<void> connect(const ConnectOptions& options) {
   const auto camera = make_camera(options);
   if (!camera) return tl::unexpected(camera.error());
 
+  std::unique_ptr<LocalScene> local;
+  if (!options.scene.file.empty()) {
+    auto opened = open_local_scene(options);
+    if (!opened) return tl::unexpected(opened.error());
+    local = std::move(*opened);
+  }
   begin_step("connecting");
   auto session = ServerSession::join(*settings, *hello);
   if (!session) return tl::unexpected(session.error());
   if (const auto made = make_folders(options.output); !made) return made;
+  const InterruptGuard guard;
   Expected<void> done;
-  if (options.scene.file.empty()) {
+  if (local == nullptr) {
     begin_step("receiving pictures");
-    done = receive_pictures(options, *camera, *session);
+    done = receive_pictures(options, *camera, guard, *session);
   } else {
-    done = render_by_stream(options, *session, *camera);
+    done = render_by_stream(options, *local, *session, *camera, guard);
   }
   session->close();
+  if (done) guard.end_if_interrupted();
   return done;
 }
 

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "lambent/error.h"
 #include "lambent/scene_options.h"
 #include "lambent/server_session.h"
+#include "lambent/world.h"
 #include "stream/client/client.h"
 
 namespace lambent::cli {
@@ -39,9 +42,22 @@ inline constexpr std::uint32_t kCameraInput = 1;
 /// The path of a frame.
 std::string name_of_frame(const ConnectOptions& options, std::size_t frame);
 
-/// Renders the options' scene in the light of a server, one picture for each update of the light.
-/// `camera` replaces the server's camera.
-Expected<void> render_by_stream(const ConnectOptions& options, ServerSession& session,
-                                const std::optional<stream::CameraInput>& camera);
+/// A copy of the server's scene, which is opened before the server is joined: a server ends
+/// connections that say nothing, and large scenes take long to read.
+struct LocalScene {
+  OpenedScene opened;
+  World world;
+
+  explicit LocalScene(OpenedScene scene) : opened(std::move(scene)), world(opened.scene) {}
+};
+/// Opens the options' scene.
+Expected<std::unique_ptr<LocalScene>> open_local_scene(const ConnectOptions& options);
+
+/// Renders that scene in the light of a server, one picture for each update of the light, until
+/// there are enough or there is an interrupt. `camera` replaces the server's camera.
+Expected<void> render_by_stream(const ConnectOptions& options, LocalScene& local,
+                                ServerSession& session,
+                                const std::optional<stream::CameraInput>& camera,
+                                const InterruptGuard& guard);
 
 }  // namespace lambent::cli

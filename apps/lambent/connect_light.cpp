@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of a local scene, in the light that a server sends.
 #include <chrono>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compose/unlit.h"
@@ -23,11 +25,12 @@
 namespace lambent::cli {
 namespace {
 
-/// Receives and answers messages until the light changes.
-Expected<void> wait_for_light(ServerSession& session, stream::LitScene& lit) {
+/// Receives and answers messages until the light changes, or there is an interrupt.
+Expected<void> wait_for_light(ServerSession& session, const InterruptGuard& guard,
+                              stream::LitScene& lit) {
   const auto end = std::chrono::steady_clock::now() + session.timeout();
   for (;;) {
-    const auto message = session.receive_until(end);
+    const auto message = session.receive_until(end, guard);
     if (!message) return tl::unexpected(message.error());
     if (!*message) break;
     // What a server says before it ends the connection is kept by the session
@@ -39,6 +42,7 @@ Expected<void> wait_for_light(ServerSession& session, stream::LitScene& lit) {
     }
     if (followed->lit) return {};
   }
+  if (guard.interrupted()) return {};
   return fail("", "", "no light came in time", Error::Kind::failed);
 }
 
@@ -56,48 +60,58 @@ RenderOptions render_options(const ConnectOptions& options) {
 /// Pictures of the options' scene in the light of a server.
 class LitPictures {
  public:
-  LitPictures(const ConnectOptions& options, const glm::ivec2& size,
+  LitPictures(const ConnectOptions& options, LocalScene& local, const glm::ivec2& size,
               const std::optional<stream::CameraInput>& camera)
       : options_(options),
+        local_(local),
         size_(size),
         camera_(camera),
         render_(render_options(options)),
         stops_(*parse_exposure(options.exposure)) {}
 
-  /// Opens the scene as the server opened it, and writes pictures until there are enough, or the
-  /// connection is lost. Those written before stay.
+  /// Writes pictures until there are enough, the connection is lost, or there is an interrupt.
+  /// Those written before stay.
   Expected<void> write(ServerSession& session, const InterruptGuard& guard) {
-    begin_step("reading the scene");
-    Expected<OpenedScene> opened = open_lit_scene(options_.scene);
-    if (!opened) return tl::unexpected(opened.error());
-    Scene& scene = opened->scene;
-    begin_step("preparing the scene for rays");
-    World world(scene);
-    const auto added = add_light_of_server("HOST", options_.server, session.welcome(),
-                                           options_.scene, *opened, world);
-    if (!added) return added;
-    stream::LitScene lit(scene, world);
-    if (const auto asked = ask_for_light(session, lit); !asked) return asked;
-    std::optional<Renderer> renderer;
-    while (static_cast<int>(written_.size()) < options_.frames && !guard.interrupted()) {
-      begin_step("receiving light");
-      if (const auto came = wait_for_light(session, lit); !came) return came;
-      begin_step("rendering the picture");
-      if (!renderer) renderer.emplace(world, IndirectSources{lit.field()});
-      const Camera from = stream::camera_of(camera_.value_or(session.welcome().camera));
-      if (const auto done = write_next(from, world, *renderer); !done) return done;
-      session.note_picture();
-    }
-    return {};
+    if (const auto same = begin(session.welcome()); !same) return same;
+    stream::LitScene lit(local_.opened.scene, local_.world);
+    const auto done = write(session, guard, lit);
+    // The next connection may be to a server that has restarted, and sends all edits in any case
+    const auto restored = lit.restore();
+    return done ? restored : done;
   }
 
   Expected<void> tell() const {
-    if (written_.empty()) return fail("", "", "was interrupted", Error::Kind::failed);
+    if (written_.empty()) return {};
     tell_written(written_, pixels_text(size_.x, size_.y), stops_ ? exposure_text(*stops_) : "");
     return {};
   }
 
  private:
+  /// Gives the scene the light of its server, with the first connection.
+  Expected<void> begin(const stream::Welcome& welcome) {
+    if (std::exchange(has_light_, true)) {
+      return check_same_scene("HOST", options_.server, welcome, local_.opened.scene);
+    }
+    return add_light_of_server("HOST", options_.server, welcome, options_.scene, local_.opened,
+                               local_.world);
+  }
+
+  Expected<void> write(ServerSession& session, const InterruptGuard& guard, stream::LitScene& lit) {
+    if (const auto asked = ask_for_light(session, lit); !asked) return asked;
+    std::optional<Renderer> renderer;
+    while (static_cast<int>(written_.size()) < options_.frames) {
+      begin_step("receiving light");
+      if (const auto came = wait_for_light(session, guard, lit); !came) return came;
+      if (guard.interrupted()) break;
+      begin_step("rendering the picture");
+      if (!renderer) renderer.emplace(local_.world, IndirectSources{lit.field()});
+      const Camera from = stream::camera_of(camera_.value_or(session.welcome().camera));
+      if (const auto done = write_next(from, local_.world, *renderer); !done) return done;
+      session.note_picture();
+    }
+    return {};
+  }
+
   Expected<void> ask_for_light(ServerSession& session, stream::LitScene& lit) const {
     if (options_.codec == "h265") {
       auto reader = stream::make_h265_reader();
@@ -134,22 +148,33 @@ class LitPictures {
   }
 
   const ConnectOptions& options_;
+  LocalScene& local_;
   const glm::ivec2 size_;
   const std::optional<stream::CameraInput>& camera_;
   const RenderOptions render_;
   std::optional<float> stops_;
+  bool has_light_ = false;  // the scene has that of its server
   std::vector<std::string> written_;
   RenderedFrame picture_;
 };
 
 }  // namespace
 
-Expected<void> render_by_stream(const ConnectOptions& options, ServerSession& session,
-                                const std::optional<stream::CameraInput>& camera) {
+Expected<std::unique_ptr<LocalScene>> open_local_scene(const ConnectOptions& options) {
+  begin_step("reading the scene");
+  Expected<OpenedScene> opened = open_lit_scene(options.scene);
+  if (!opened) return tl::unexpected(opened.error());
+  begin_step("preparing the scene for rays");
+  return std::make_unique<LocalScene>(std::move(*opened));
+}
+
+Expected<void> render_by_stream(const ConnectOptions& options, LocalScene& local,
+                                ServerSession& session,
+                                const std::optional<stream::CameraInput>& camera,
+                                const InterruptGuard& guard) {
   const auto size = parse_size("--size", options.size);
   if (!size) return tl::unexpected(size.error());
-  LitPictures pictures(options, *size, camera);
-  const InterruptGuard guard;
+  LitPictures pictures(options, local, *size, camera);
   const auto done = session.over_connections(guard, [&] { return pictures.write(session, guard); });
   return done ? pictures.tell() : done;
 }

@@ -15,8 +15,10 @@ constexpr int kEndingSignals[] = {SIGINT, SIGTERM, SIGHUP};
 /// Signals that a guard records. Not SIGHUP: without a terminal nobody waits for the frame.
 constexpr int kGuardedSignals[] = {SIGINT, SIGTERM};
 
-std::atomic<bool> guarding = false, noted = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler uses it");
+std::atomic<bool> guarding = false;
+std::atomic<int> noted = 0;  // the signal; 0: none
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+              "a signal handler uses them");
 
 void end_by(int number) {
   discard_unfinished_files();
@@ -31,7 +33,7 @@ void end_by(int number) {
 
 void handle(int number) {
   for (const int guarded : kGuardedSignals) {
-    if (number == guarded && guarding && !noted.exchange(true)) return;
+    if (number == guarded && guarding && noted.exchange(number) == 0) return;
   }
   end_by(number);
 }
@@ -53,7 +55,7 @@ void clean_up_on_signals() {
 }
 
 InterruptGuard::InterruptGuard() {
-  noted = false;
+  noted = 0;
   guarding = true;
 }
 
@@ -62,7 +64,11 @@ InterruptGuard::~InterruptGuard() {
 }
 
 bool InterruptGuard::interrupted() const {
-  return noted;
+  return noted != 0;
+}
+
+void InterruptGuard::end_if_interrupted() const {
+  if (const int number = noted; number != 0) end_by(number);
 }
 
 }  // namespace lambent::cli

@@ -20,6 +20,9 @@ class InterruptGuard {
 
   /// Whether there was an interrupt.
   bool interrupted() const;
+  /// Ends the program as that interrupt would have done, so that a shell sees the usual status.
+  /// Returns if there was none.
+  void end_if_interrupted() const;
 };
 
 }  // namespace lambent::cli

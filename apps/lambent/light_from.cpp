@@ -3,16 +3,17 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <thread>
+#include <utility>
 
+#include "lambent/console.h"
 #include "lambent/light_options.h"
 #include "lambent/server_address.h"
 #include "lambent/words.h"
 #include "stream/edits/edits.h"
 
 namespace lambent::cli {
-namespace {
 
-/// Fails where the objects and lights of the scene differ from the server's.
 Expected<void> check_same_scene(const std::string& option, const std::string& server,
                                 const stream::Welcome& welcome, const Scene& scene) {
   const std::size_t lights = std::min(scene.lights.size(), stream::kMaxToldLights);
@@ -23,8 +24,6 @@ Expected<void> check_same_scene(const std::string& option, const std::string& se
                   count_text(scene.instances.size(), "object") + " and " +
                   count_text(lights, "light"));
 }
-
-}  // namespace
 
 void add_light_from_options(CLI::App& command, LightFromOptions& o,
                             const std::vector<CLI::Option*>& of_own_light) {
@@ -54,7 +53,17 @@ Expected<std::unique_ptr<stream::Upstream>> open_upstream(const LightFromOptions
   auto token = read_token(options.token_file);
   if (!token) return tl::unexpected(token.error());
   settings.token = std::move(*token);
-  return stream::Upstream::open(settings);
+  auto upstream = stream::Upstream::open(settings);
+  // As later, when a server that was lost is looked for
+  for (bool told = false; !upstream && upstream.error().kind == Error::Kind::failed;) {
+    if (!std::exchange(told, true)) {
+      warn("the server of the light is not there yet, and is waited for: " +
+           upstream.error().message());
+    }
+    std::this_thread::sleep_for(settings.retry);
+    upstream = stream::Upstream::open(settings);
+  }
+  return upstream;
 }
 
 Expected<void> add_light_of_server(const std::string& option, const std::string& server,

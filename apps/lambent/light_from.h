@@ -28,12 +28,17 @@ struct LightFromOptions {
 void add_light_from_options(CLI::App& command, LightFromOptions& options,
                             const std::vector<CLI::Option*>& of_own_light);
 
-/// Connects to the server that the options name.
+/// Connects to the server that the options name. Waits for one that does not answer yet or has too
+/// many clients, and warns of that.
 Expected<std::unique_ptr<stream::Upstream>> open_upstream(const LightFromOptions& options);
 
+/// Fails, naming the server as the value of an option, where the objects and lights of a scene
+/// differ from the server's.
+Expected<void> check_same_scene(const std::string& option, const std::string& server,
+                                const stream::Welcome& welcome, const Scene& scene);
+
 /// Gives a copy of a server's scene the light that the server chose for it, and updates the world.
-/// Fails, naming the server as the value of an option, where objects or lights then differ from the
-/// server's.
+/// Fails as check_same_scene does.
 Expected<void> add_light_of_server(const std::string& option, const std::string& server,
                                    const stream::Welcome& welcome, const SceneOptions& options,
                                    OpenedScene& opened, World& world);

@@ -17,6 +17,7 @@
 #include "lambent/input.h"
 #include "lambent/interrupts.h"
 #include "lambent/memory_check.h"
+#include "lambent/output.h"
 #include "lambent/parse.h"
 #include "lambent/progress_bar.h"
 #include "lambent/quality.h"
@@ -106,7 +107,21 @@ Expected<void> check(const ServeOptions& options) {
   }
   const auto fine = field_settings(options.field, {}, options.seed, -1);
   if (!fine) return tl::unexpected(fine.error());
-  return stream::Listener::check_files(listen);
+  if (options.picture_clients > static_cast<int>(options.server.max_clients)) {
+    return fail("--picture-clients", std::to_string(options.picture_clients),
+                "is more than --clients " + std::to_string(options.server.max_clients));
+  }
+  return {};
+}
+
+/// Fails where a server could not start now, which is told before the scene is read.
+Expected<void> check_start(const stream::ServerSettings& server) {
+  if (!server.listen.record.empty()) {
+    if (const auto can = check_place(server.listen.record); !can) return can;
+  }
+  if (const auto can = stream::Listener::check(server.listen); !can) return can;
+  return server.publish.name.empty() ? Expected<void>()
+                                     : stream::BrokerPublisher::check(server.publish);
 }
 
 /// The scene as a file for clients.
@@ -128,6 +143,9 @@ Expected<void> serve_world(const ServeOptions& options, const Served& served,
     settings.listen.scene = std::move(*shared);
   }
   begin_step("serving");
+  if (!settings.listen.record.empty()) {
+    if (const auto made = make_folders(settings.listen.record); !made) return made;
+  }
   const InterruptGuard guard;
   const auto server = stream::Server::open(served, settings);
   if (!server) return tl::unexpected(server.error());
@@ -252,6 +270,7 @@ Expected<void> serve(ServeOptions options) {
   if (!pictures) return tl::unexpected(pictures.error());
   const glm::uvec2& size = pictures->limits.size;
   if (const auto fits = check_memory(options, picture_clients(options), size); !fits) return fits;
+  if (const auto can = check_start(options.server); !can) return can;
   const ThreadLimit limit(options.threads);
   return options.light_from.server.empty() ? serve_own(options, *pictures)
                                            : serve_relayed(options, *pictures);

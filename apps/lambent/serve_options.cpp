@@ -2,6 +2,7 @@
 #include "lambent/serve_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -15,6 +16,25 @@ namespace lambent::cli {
 namespace {
 
 constexpr int kMaxClients = 10'000;
+
+/// Accepts origins as browsers send them: a scheme, a host and, unless it is the scheme's own, a
+/// port, in small letters. Others would never match.
+CLI::Validator origin() {
+  const auto check = [](const std::string& text) -> std::string {
+    const std::size_t end = text.find("://");
+    const std::string host = end == std::string::npos ? "" : text.substr(end + 3);
+    const bool has_scheme = end != std::string::npos && end > 0;
+    const bool has_host = !host.empty() && host.find_first_of("/?#@ ") == std::string::npos;
+    const bool is_small = std::ranges::none_of(text, [](char c) { return c >= 'A' && c <= 'Z'; });
+    const bool has_own_port = (text.starts_with("http://") && text.ends_with(":80")) ||
+                              (text.starts_with("https://") && text.ends_with(":443"));
+    if (has_scheme && has_host && is_small && !has_own_port) return {};
+    return "'" + text + "' is no origin that a browser sends, which is as https://example.org or " +
+           "http://localhost:3000: in small letters, with neither a path nor a / at the end, and " +
+           "without the port 80 of http and 443 of https";
+  };
+  return {check, ""};
+}
 
 void add_listen_options(CLI::App& command, ServeOptions& o) {
   stream::ListenSettings& listen = o.server.listen;
@@ -65,6 +85,7 @@ void add_listen_options(CLI::App& command, ServeOptions& o) {
   command
       .add_option("--origin", listen.origins,
                   "Pages from here may connect, too, as https://example.org; as often as wanted")
+      ->check(origin())
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("O");

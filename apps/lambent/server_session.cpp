@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lambent/server_session.h"
 
+#include <algorithm>
 #include <thread>
 
 #include "lambent/console.h"
@@ -11,6 +12,8 @@ namespace {
 
 // Time between attempts to join.
 constexpr std::chrono::milliseconds kRetry{250};
+// Interval at which interrupts are looked for while nothing arrives.
+constexpr std::chrono::milliseconds kLook{100};
 
 }  // namespace
 
@@ -28,20 +31,23 @@ Expected<void> ServerSession::send(const stream::Message& message) {
 }
 
 Expected<std::optional<stream::Message>> ServerSession::receive_until(
-    std::chrono::steady_clock::time_point end) {
-  const auto left =
-      std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
-  if (left.count() <= 0) return std::optional<stream::Message>();
-  auto message = joined_.client->receive(left);
-  if (!message) {
-    // Messages that are not of the protocol are bad input, and leave the connection as it is
-    if (message.error().kind == Error::Kind::failed) lost_ = true;
-    if (refusal_) message.error().cause += "; it said: " + printable(refusal_->text);
+    std::chrono::steady_clock::time_point end, const InterruptGuard& guard) {
+  while (!guard.interrupted()) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+        end - std::chrono::steady_clock::now());
+    if (left.count() <= 0) break;
+    auto message = joined_.client->receive(std::min(left, kLook));
+    if (!message) {
+      // Messages that are not of the protocol are bad input, and leave the connection as it is
+      if (message.error().kind == Error::Kind::failed) lost_ = true;
+      if (refusal_) message.error().cause += "; it said: " + printable(refusal_->text);
+      return message;
+    }
+    if (!*message) continue;
+    if (const auto* refusal = std::get_if<stream::Refusal>(&**message)) refusal_ = *refusal;
     return message;
   }
-  if (!*message) return message;
-  if (const auto* refusal = std::get_if<stream::Refusal>(&**message)) refusal_ = *refusal;
-  return message;
+  return std::optional<stream::Message>();
 }
 
 /// Whether the connection was lost, and joining again may help: it has led to a picture, and the

@@ -27,9 +27,10 @@ class ServerSession {
 
   /// See stream::Client.
   Expected<void> send(const stream::Message& message);
-  /// The next message; none if none arrives in time. The cause of a failure includes what the
-  /// server said last.
-  Expected<std::optional<stream::Message>> receive_until(std::chrono::steady_clock::time_point end);
+  /// The next message; none if none arrives in time, or there is an interrupt before. The cause of
+  /// a failure includes what the server said last.
+  Expected<std::optional<stream::Message>> receive_until(std::chrono::steady_clock::time_point end,
+                                                         const InterruptGuard& guard);
   /// Notes that the present connection has led to a picture.
   void note_picture() { brought_picture_ = true; }
 

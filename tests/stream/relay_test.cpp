@@ -156,6 +156,7 @@ TEST(Relay, KeepsTheLastLightWhereItsServerGoesAndFollowsTheNextOne) {
   ASSERT_TRUE(becomes_true([&] { return light_from(relay).connected; }));
   EXPECT_LT(Clock::now() - back, std::chrono::seconds(1));
   EXPECT_EQ(light_from(relay).connections, 2u);
+  EXPECT_EQ(light_from(relay).lost_because, "") << "it is there";
   double now = 0.0;
   for (int i = 0; i < 500 && std::abs(now - lit) > 0.02; ++i) now = mean(late.picture());
   EXPECT_NEAR(now, lit, 0.02);
@@ -311,6 +312,20 @@ TEST(LitScene, IsAtRestWhereItsServerDoesNotPlay) {
   light.time_s = -1.0f;
   ASSERT_TRUE(lit.follow(Message(light)));
   EXPECT_EQ(scene.lights[0].position_ws, place);
+}
+
+TEST(LitScene, TakesBackWhatItsServerEdited) {
+  Scene scene = scenes::make("cornell-spot").value();
+  const glm::vec3 intensity = scene.lights[0].intensity;
+  World world(scene);
+  LitScene lit(scene, world);
+  LightInput edit;
+  edit.edits = kEditsIntensity;
+  edit.intensity = 3.0f * intensity;
+  ASSERT_TRUE(lit.follow(Message(edit)));
+  ASSERT_EQ(scene.lights[0].intensity, edit.intensity);
+  ASSERT_TRUE(lit.restore());
+  EXPECT_EQ(scene.lights[0].intensity, intensity);
 }
 
 TEST(Relay, IsKnownToItsServerByATokenAndChecksItsCertificate) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lambent serve and lambent connect, as they are typed.
+// lambent serve, as it is typed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -14,78 +14,20 @@
 #include <vector>
 
 #include "lambent/image.h"
+#include "stream/broker/broker.h"
 #include "support/certificate.h"
 #include "support/http_get.h"
 #include "support/program.h"
+#include "support/running_server.h"
 
 namespace lambent::serve_command_test {
 namespace {
 
+using test::kSmallServer;
 using test::ProgramResult;
 using test::run_program;
+using test::RunningServer;
 using ::testing::HasSubstr;
-
-const std::vector<std::string> kSmall = {
-    "serve",  "cornell-spot", "--port",    "0", "--probes", "3x3x3",
-    "--rays", "32",           "--updates", "1", "--size",   "160x96"};
-
-/// A server in a process of its own, of which stderr is read.
-class RunningServer {
- public:
-  explicit RunningServer(const std::vector<std::string>& more = {},
-                         const std::vector<std::string>& first = kSmall) {
-    std::array<int, 2> ends{};
-    if (pipe(ends.data()) != 0) return;
-    std::vector<std::string> arguments = first;
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const int own = dup(STDERR_FILENO);
-    dup2(ends[1], STDERR_FILENO);
-    process_ = test::start_program(arguments);
-    dup2(own, STDERR_FILENO);
-    ::close(own);
-    ::close(ends[1]);
-    errors_ = ends[0];
-    read_until("serving");
-    const std::size_t colon = said_.rfind(':', said_.find("/ (Ctrl-C"));
-    if (colon != std::string::npos) port_ = std::atoi(said_.c_str() + colon + 1);
-  }
-  ~RunningServer() {
-    end(SIGKILL);
-    ::close(errors_);
-  }
-
-  int port() const { return port_; }
-  const std::string& said() const { return said_; }
-  std::string host() const { return "127.0.0.1:" + std::to_string(port_); }
-
-  /// Sends it a signal and waits; its exit status, -1 where it was killed.
-  int end(int signal_number) {
-    if (process_ <= 0) return -1;
-    kill(process_, signal_number);
-    int status = 0;
-    waitpid(process_, &status, 0);
-    process_ = -1;
-    read_until("a line that is never said");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-
- private:
-  /// Reads what it says until a line says that, or it says no more.
-  void read_until(const std::string& words) {
-    std::array<char, 512> buffer;
-    for (;;) {
-      const std::size_t at = said_.find(words);
-      if (at != std::string::npos && said_.find('\n', at) != std::string::npos) return;
-      const ssize_t size = read(errors_, buffer.data(), buffer.size());
-      if (size <= 0) return;
-      said_.append(buffer.data(), static_cast<std::size_t>(size));
-    }
-  }
-
-  pid_t process_ = -1;
-  int errors_ = -1, port_ = 0;
-  std::string said_;
-};
 
 TEST(ServeCommand, ServesPicturesUntilItIsTerminated) {
   const test::TemporaryDirectory directory;
@@ -135,6 +77,24 @@ TEST(ServeCommand, TellsThatThePortIsInUse) {
                                            std::to_string(server.port()));
   EXPECT_EQ(second.status, 1);
   EXPECT_THAT(second.errors, HasSubstr("in use"));
+}
+
+TEST(ServeCommand, TellsWhatKeepsItFromStartingBeforeItReadsTheScene) {
+  const test::TemporaryDirectory directory;
+  RunningServer server;
+  ASSERT_GT(server.port(), 0) << server.said();
+  // That this cannot be read is found out after all that can be told before
+  std::ofstream(directory.file("broken.gltf"))
+      << R"({"asset": {"version": "2.0"}, "buffers": [{"uri": "none.bin", "byteLength": 9}]})";
+  const auto refused = [&](const std::string& arguments, const std::string& why) {
+    const ProgramResult result =
+        run_program("serve " + directory.file("broken.gltf") + " " + arguments);
+    EXPECT_THAT(result.errors, HasSubstr(why)) << arguments;
+  };
+  refused("--port " + std::to_string(server.port()), "in use");
+  refused("--port 0 --record " + directory.file("broken.gltf") + "/session", "session");
+  if (stream::has_broker()) refused("--port 0 --publish nats://127.0.0.1:1/light", "broker");
+  refused("--port 0", "broken.gltf");
 }
 
 TEST(ServeCommand, IsEncryptedAndAsksForTokens) {
@@ -202,14 +162,46 @@ TEST(ServeCommand, RendersInTheLightOfAnotherServerAndOutlivesIt) {
   EXPECT_EQ(server.end(SIGTERM), 0);
   EXPECT_THAT(server.said(), HasSubstr("has gone"));
 
-  // One that was never there is told at once, and so is another scene
-  const ProgramResult nobody = run_program("serve cornell-spot --light-from " + light.host());
-  EXPECT_EQ(nobody.status, 1);
-  EXPECT_THAT(nobody.errors, HasSubstr("does not answer"));
+  // Another scene is told at once
   RunningServer again;
   const ProgramResult other = run_program("serve two-rooms --light-from " + again.host());
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.errors, HasSubstr("another scene"));
+}
+
+TEST(ServeCommand, WaitsForTheServerOfItsLight) {
+  std::string light_port, port;
+  {
+    const RunningServer light, other;
+    ASSERT_GT(light.port(), 0) << light.said();
+    light_port = std::to_string(light.port());
+    port = std::to_string(other.port());
+  }
+  const pid_t waiting =
+      test::start_program({"serve", "cornell-spot", "--light-from", "127.0.0.1:" + light_port,
+                           "--port", port, "--size", "160x96"});
+  usleep(500'000);
+  int status = -1;
+  ASSERT_EQ(waitpid(waiting, &status, WNOHANG), 0) << "it has ended";
+  std::vector<std::string> again = kSmallServer;
+  std::ranges::replace(again, std::string("0"), light_port);
+  const RunningServer light({}, again);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  const auto number = static_cast<std::uint16_t>(std::stoi(port));
+  while (test::http_get(number, "/healthz").find("ok") == std::string::npos &&
+         std::chrono::steady_clock::now() < end) {
+    usleep(50'000);
+  }
+  EXPECT_LT(std::chrono::steady_clock::now(), end);
+  kill(waiting, SIGKILL);
+  waitpid(waiting, nullptr, 0);
+  // An interrupt ends one that waits in vain
+  const pid_t in_vain =
+      test::start_program({"serve", "cornell-spot", "--light-from", "127.0.0.1:1", "--port", "0"});
+  usleep(500'000);
+  kill(in_vain, SIGINT);
+  waitpid(in_vain, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGINT) << status;
 }
 
 TEST(ServeCommand, RefusesOptionsThatDoNotGoTogetherBeforeItReadsTheScene) {
@@ -225,100 +217,21 @@ TEST(ServeCommand, RefusesOptionsThatDoNotGoTogetherBeforeItReadsTheScene) {
   refused("--rate 0", "--rate");
   refused("--port 70000", "--port");
   refused("--quality hihg", "did you mean 'high'?");
-  refused("--play", "no animation");
+  refused("--play --port 0", "no animation");
   refused("--light-from localhost --rate 5", "--rate");
   refused("--light-from localhost --probes 3x3x3", "--probes");
   refused("--light-token file", "--light-from");
   refused("--light-from localhost:99999", "1 to 65535");
+  refused("--picture-clients 9", "more than --clients 8");
+  for (const char* origin : {"foo", "http://x/", "http://x/y", "https://Example.org", "://x",
+                             "https://x:443", "http://"}) {
+    refused(std::string("--origin ") + origin, "is no origin");
+  }
+  refused("--origin https://example.org:8443 --origin http://[::1]:3000 --size 8x8", "--size");
   refused("--tokens /nowhere/tokens", "/nowhere/tokens");
   refused("--certificate /nowhere/c.pem --key /nowhere/k.pem", "/nowhere/c.pem");
   EXPECT_EQ(run_program("serve").status, 2);
   EXPECT_EQ(run_program("serve /nowhere.glb").status, 2);
-}
-
-TEST(ConnectCommand, GoesOnOnceItsServerIsBack) {
-  const test::TemporaryDirectory directory;
-  RunningServer first;
-  ASSERT_GT(first.port(), 0) << first.said();
-  const std::string port = std::to_string(first.port());
-  const auto connect = [&](const std::string& name, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {
-        "connect", first.host(), "--frames",  "200", "-o", directory.file(name + ".png"),
-        "--size",  "96x64",      "--timeout", "60"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return test::start_program(arguments);
-  };
-  const auto has = [&](const std::string& name, const std::string& frame) {
-    return std::filesystem::exists(directory.file(name + "." + frame + ".png"));
-  };
-  /// Waits until both clients have written a frame.
-  const auto wait_for = [&](const std::string& frame) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (!has("seen", frame) || !has("lit", frame)) {
-      if (std::chrono::steady_clock::now() > end) return false;
-      usleep(10'000);
-    }
-    return true;
-  };
-  const std::array<pid_t, 2> clients = {
-      connect("seen", {"--eye", "2.7,2.7,-5", "--target", "2.7,2.7,0"}),
-      connect("lit", {"--scene", "cornell-spot", "--quality", "draft"})};
-  EXPECT_TRUE(wait_for("0000"));
-  EXPECT_EQ(first.end(SIGKILL), -1);
-  // Of a scene at rest, a server sends fewer pictures than these, and light until it has settled
-  EXPECT_FALSE(has("seen", "0017"));
-  std::vector<std::string> again = kSmall;
-  std::ranges::replace(again, std::string("0"), port);
-  const RunningServer second({}, again);
-  EXPECT_EQ(std::to_string(second.port()), port) << second.said();
-  EXPECT_TRUE(wait_for("0020"));
-  // They wait for the rest, and end at once
-  for (const pid_t client : clients) {
-    kill(client, SIGKILL);
-    waitpid(client, nullptr, 0);
-  }
-}
-
-TEST(ConnectCommand, NamesItsPicturesWhereItIsInterruptedWithoutAServer) {
-  const test::TemporaryDirectory directory;
-  RunningServer server;
-  ASSERT_GT(server.port(), 0) << server.said();
-  const pid_t client =
-      test::start_program({"connect", server.host(), "--frames", "200", "-o",
-                           directory.file("a.png"), "--size", "96x64", "--timeout", "60"});
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (!std::filesystem::exists(directory.file("a.0000.png")) &&
-         std::chrono::steady_clock::now() < end) {
-    usleep(10'000);
-  }
-  EXPECT_EQ(server.end(SIGKILL), -1);
-  usleep(300'000);  // it has begun to look for the server
-  kill(client, SIGINT);
-  int status = -1;
-  waitpid(client, &status, 0);
-  EXPECT_EQ(status, 0);
-}
-
-TEST(ConnectCommand, TellsWhatIsWrong) {
-  const test::TemporaryDirectory directory;
-  const std::string out = " -o " + directory.file("a.png") + " --timeout 2";
-  const ProgramResult nobody = run_program("connect 127.0.0.1:1" + out);
-  EXPECT_EQ(nobody.status, 1);
-  EXPECT_THAT(nobody.errors, HasSubstr("127.0.0.1:1"));
-  EXPECT_EQ(run_program("connect localhost:99999" + out).status, 2);
-  EXPECT_EQ(run_program("connect localhost -o a.exr").status, 2);
-  const auto refused = [&](const std::string& arguments, const std::string& why) {
-    const ProgramResult result = run_program("connect " + arguments);
-    EXPECT_EQ(result.status, 2) << arguments;
-    EXPECT_THAT(result.errors, HasSubstr(why)) << arguments;
-  };
-  refused("ftp://localhost" + out, "neither http://");
-  refused("localhost:8080/stream" + out, "has a path");
-  refused("localhost --token-file " + directory.file("none") + out, "no such file");
-  refused("localhost --scene cornell --layers" + out, ".exr");
-  refused("localhost --exposure 1" + out, "--scene");
-  EXPECT_EQ(run_program("connect localhost --eye 1,2,3" + out).status, 2);
-  EXPECT_EQ(directory.entries(), 0u);
 }
 
 }  // namespace

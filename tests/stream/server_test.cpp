@@ -2,10 +2,13 @@
 // A server in this process, and clients that behave.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <mutex>
 #include <string>
+#include <thread>
 
 #include "core/image/metrics.h"
 #include "core/image/tone_map.h"
@@ -188,6 +191,45 @@ TEST_F(WithTokens, WhoseTokenIsRevokedIsSentAway) {
   ASSERT_TRUE(refusal);
   EXPECT_EQ(refusal->code, Refusal::Code::bad_token);
   EXPECT_FALSE(edits.picture().empty());
+}
+
+TEST_F(WithTokens, ThatAreRepairedAreToldToBeGoodAgain) {
+  std::mutex mutex;
+  std::string said;
+  settings.listen.log = [&](const std::string& line) {
+    const std::lock_guard lock(mutex);
+    said += line + "\n";
+  };
+  const auto says = [&](const std::string& words) {
+    const auto end = std::chrono::steady_clock::now() + test::kPatience;
+    while (std::chrono::steady_clock::now() < end) {
+      {
+        const std::lock_guard lock(mutex);
+        if (said.find(words) != std::string::npos) return true;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    return false;
+  };
+  const ServedScene served(settings);
+  write("nobody\n");
+  ASSERT_TRUE(says("no token is good now"));
+  write("change " + kEdit + "\n");
+  EXPECT_TRUE(says("are good again"));
+}
+
+TEST(Server, IsReachedByItsIpv6Address) {
+  ServerSettings settings = ServedScene::small_settings();
+  settings.listen.host = "::1";
+  Hub hub(1, 1);
+  if (const auto listener = Listener::open(settings.listen, hub); !listener) {
+    GTEST_SKIP() << listener.error().message();
+  }
+  const ServedScene served(settings);
+  ConnectSettings address = served.address();
+  address.host = "::1";
+  const auto joined = join(address, small_hello());
+  EXPECT_TRUE(joined) << joined.error().message();
 }
 
 TEST(ServerTls, EncryptsAndIsKnownByItsCertificate) {

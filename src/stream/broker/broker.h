@@ -23,6 +23,8 @@ Expected<BrokerAddress> parse_broker_address(const std::string& option, const st
 /// Publishes the light of a hub's world, as one client of it, on a thread of its own.
 class BrokerPublisher {
  public:
+  /// Fails where the broker does not answer now, as `open` will.
+  static Expected<void> check(const BrokerAddress& address);
   /// Refers to the hub, which must outlive it. `log` is called with later errors. Fails where the
   /// broker does not answer, the hub is full, or the build does not support brokers.
   static Expected<std::unique_ptr<BrokerPublisher>> open(

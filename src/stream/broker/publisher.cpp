@@ -163,6 +163,12 @@ bool has_broker() {
   return true;
 }
 
+Expected<void> BrokerPublisher::check(const BrokerAddress& address) {
+  const auto connection = NatsConnection::open(address, false, kConnectTimeout);
+  if (!connection) return tl::unexpected(connection.error());
+  return {};
+}
+
 Expected<std::unique_ptr<BrokerPublisher>> BrokerPublisher::open(
     const BrokerAddress& address, Hub& hub, std::function<void(const std::string&)> log) {
   auto connection = NatsConnection::open(address, true, kConnectTimeout);

@@ -13,6 +13,7 @@
 #include "stream/broker/broker.h"
 #include "stream/protocol/hello_header.h"
 #include "stream/transport/byte_stream.h"
+#include "stream/transport/host_and_port.h"
 
 namespace lambent::stream {
 namespace {
@@ -56,9 +57,8 @@ class BeastClient : private Base, public Client {
     }));
     socket_.read_message_max(kHeaderBytes + kMaxLightBytes + kMaxPictureBytes);
     socket_.auto_fragment(false);
-    const std::string host = settings_.host + ":" + std::to_string(settings_.port);
     websocket::response_type answer;
-    error = wait([&](auto done) { socket_.async_handshake(answer, host, "/stream", done); });
+    error = wait([&](auto done) { socket_.async_handshake(answer, name(), "/stream", done); });
     if (error == beast::http::error::end_of_stream && !settings_.tls) {
       return failed("ends the connection: it may speak TLS alone, and want https://", error);
     }
@@ -132,7 +132,7 @@ class BeastClient : private Base, public Client {
   }
 
  private:
-  std::string name() const { return settings_.host + ":" + std::to_string(settings_.port); }
+  std::string name() const { return host_and_port(settings_.host, settings_.port); }
 
   tl::unexpected<Error> failed(const char* how, beast::error_code error) const {
     return fail("", name(), std::string(how) + ": " + error.message(), Error::Kind::failed);
@@ -210,11 +210,12 @@ Expected<Joined> join(const ConnectSettings& settings, const Hello& hello) {
       return Joined{std::move(*client), *welcome};
     if (auto* refusal = std::get_if<Refusal>(&**answer)) {
       const bool for_now = refusal->code == Refusal::Code::too_many;
-      return fail("", settings.host, "refuses: " + refusal->text,
+      return fail("", host_and_port(settings.host, settings.port), "refuses: " + refusal->text,
                   for_now ? Error::Kind::failed : Error::Kind::bad_input);
     }
   }
-  return fail("", settings.host, "does not answer as a server of lambent's", Error::Kind::failed);
+  return fail("", host_and_port(settings.host, settings.port),
+              "does not answer as a server of lambent's", Error::Kind::failed);
 }
 
 }  // namespace lambent::stream

@@ -7,11 +7,21 @@
 namespace lambent::stream {
 
 Expected<void> LitScene::edit(const Edit& edit) {
+  edited_.insert(target_of(edit));
   const std::array<Edit, 1> one = {edit};
   const auto refused = editor_.apply(one);
   if (!refused) return tl::unexpected(refused.error());
   if (refused->empty()) return {};
   return fail("scene", "", "is not the server's: " + refused->front().why);
+}
+
+Expected<void> LitScene::restore() {
+  if (const auto posed = pose(kRestTime); !posed) return posed;
+  for (const EditTarget& target : std::set<EditTarget>(edited_)) {
+    if (const auto done = edit(editor_.original(target)); !done) return done;
+  }
+  edited_.clear();
+  return {};
 }
 
 /// Poses the scene as the server's is at a time; below 0 none of its animations is played.

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "lambent/stream.h"
@@ -36,6 +37,9 @@ class LitScene {
   /// Fails where the scene differs from the server's, and on refusals of the server.
   Expected<Followed> follow(const Message& message);
 
+  /// Takes back all edits and the pose, so that the scene is as it was opened.
+  Expected<void> restore();
+
   /// The server's light, for a Renderer; null before the first update. The pointer stays valid.
   const IrradianceField* field() const { return streamed_.field(); }
   /// The decoder of the light.
@@ -57,6 +61,7 @@ class LitScene {
   World& world_;
   SceneEditor editor_;
   StreamedField streamed_;
+  std::set<EditTarget> edited_;
   float time_s_ = kRestTime;
 };
 

@@ -152,6 +152,7 @@ void Upstream::reconnect() {
   const std::lock_guard lock(mutex_);
   client_ = std::move(joined->client);
   status_.connected = true;
+  status_.lost_because.clear();
   ++status_.connections;
   arrived_.emplace_back(joined->welcome);
   if (wake_) wake_();

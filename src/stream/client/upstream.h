@@ -34,7 +34,8 @@ struct UpstreamSettings {
 struct UpstreamStatus {
   bool connected = false;
   std::uint64_t connections = 0;  ///< So far.
-  std::string lost_because;  ///< Why it last ended or could not be re-established; empty: never.
+  /// Why it has ended or could not be re-established; empty while there is one.
+  std::string lost_because;
 };
 
 /// Receives on a thread of its own. All functions may be called from any thread.

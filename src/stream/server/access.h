@@ -38,6 +38,8 @@ class Access {
   static Expected<Access> open(const std::string& path);
 
   bool needs_token() const { return !path_.empty(); }
+  /// Whether the file, as it was last read, has tokens.
+  bool has_tokens() const { return !entries_.empty(); }
   /// The role of a token at a time [s since 1970], or nothing. Takes the same time whichever token
   /// is compared, and however much of it is right.
   std::optional<Admission> admit(std::string_view token, std::int64_t now_s) const;

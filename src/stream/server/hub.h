@@ -21,7 +21,7 @@ namespace lambent::stream {
 struct LightFrom {
   bool connected = false;
   std::uint64_t connections = 0;  ///< So far.
-  std::string lost_because;       ///< Reason of the last loss; empty: never.
+  std::string lost_because;       ///< Reason of the loss; empty while it is connected.
 };
 
 /// The statistics of /stats.

@@ -14,6 +14,7 @@
 
 #include "stream/server/connections.h"
 #include "stream/server/http_connection.h"
+#include "stream/transport/host_and_port.h"
 
 namespace lambent::stream {
 namespace {
@@ -57,6 +58,25 @@ Expected<tcp::endpoint> resolve(boost::asio::io_context& io, const ListenSetting
   return found.begin()->endpoint();
 }
 
+Expected<void> listen_at(boost::asio::io_context& io, const ListenSettings& settings,
+                         tcp::acceptor& acceptor) {
+  const auto endpoint = resolve(io, settings);
+  if (!endpoint) return tl::unexpected(endpoint.error());
+  ErrorCode error;
+  acceptor.open(endpoint->protocol(), error);
+  if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
+  if (!error) acceptor.bind(*endpoint, error);
+  if (!error) acceptor.listen(tcp::acceptor::max_listen_connections, error);
+  const std::string at = host_and_port(settings.host, settings.port);
+  if (error == boost::asio::error::address_in_use) {
+    return fail("", at, "the port is in use by another program", Error::Kind::failed);
+  }
+  if (error) {
+    return fail("", at, "cannot be listened at: " + error.message(), Error::Kind::failed);
+  }
+  return {};
+}
+
 /// Limits the system's queue of unsent bytes, so that later messages of higher priority can go
 /// first.
 void keep_short([[maybe_unused]] tcp::socket& socket) {
@@ -88,9 +108,9 @@ class BeastListener : public Listener {
       if (!session) return tl::unexpected(session.error());
       context_.session.emplace(std::move(*session));
     }
-    const auto endpoint = resolve(context_.io, context_.settings);
-    if (!endpoint) return tl::unexpected(endpoint.error());
-    if (const auto bound = bind(*endpoint); !bound) return bound;
+    const auto listening = listen_at(context_.io, context_.settings, acceptor_);
+    if (!listening) return listening;
+    port_ = acceptor_.local_endpoint().port();
     accept();
     tick();
     thread_ = std::thread([this] { serve(); });
@@ -101,9 +121,8 @@ class BeastListener : public Listener {
 
   std::string url() const override {
     const std::string& host = context_.settings.host;
-    const bool v6 = host.find(':') != std::string::npos;
-    const std::string name = host == "127.0.0.1" ? "localhost" : v6 ? "[" + host + "]" : host;
-    return (context_.tls ? "https://" : "http://") + name + ":" + std::to_string(port_) + "/";
+    const std::string name = host == "127.0.0.1" ? "localhost" : host;
+    return (context_.tls ? "https://" : "http://") + host_and_port(name, port_) + "/";
   }
 
   void drain() override {
@@ -121,23 +140,6 @@ class BeastListener : public Listener {
   }
 
  private:
-  Expected<void> bind(const tcp::endpoint& endpoint) {
-    ErrorCode error;
-    acceptor_.open(endpoint.protocol(), error);
-    if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
-    if (!error) acceptor_.bind(endpoint, error);
-    if (!error) acceptor_.listen(tcp::acceptor::max_listen_connections, error);
-    const std::string at = context_.settings.host + ":" + std::to_string(context_.settings.port);
-    if (error == boost::asio::error::address_in_use) {
-      return fail("", at, "the port is in use by another program", Error::Kind::failed);
-    }
-    if (error) {
-      return fail("", at, "cannot be listened at: " + error.message(), Error::Kind::failed);
-    }
-    port_ = acceptor_.local_endpoint().port();
-    return {};
-  }
-
   void serve() {
     for (bool done = false; !done;) {
       try {
@@ -183,6 +185,10 @@ class BeastListener : public Listener {
     }
     if (const auto fresh = context_.access.refresh(); !fresh) {
       context_.settings.log("no token is good now: " + fresh.error().message());
+      tokens_lost_ = true;
+    } else if (tokens_lost_ && context_.access.has_tokens()) {
+      context_.settings.log("the tokens of " + context_.settings.tokens + " are good again");
+      tokens_lost_ = false;
     }
     for (const auto& weak : context_.open_connections) {
       if (const auto connection = weak.lock()) connection->tick();
@@ -197,13 +203,14 @@ class BeastListener : public Listener {
   tcp::acceptor acceptor_;
   boost::asio::steady_timer timer_;
   std::uint16_t port_ = 0;
+  bool tokens_lost_ = false;  // since the file was broken
   std::optional<Clock::time_point> ending_;
   std::thread thread_;
 };
 
 }  // namespace
 
-Expected<void> Listener::check_files(const ListenSettings& settings) {
+Expected<void> Listener::check(const ListenSettings& settings) {
   if (!settings.certificate.empty()) {
     if (const auto tls = make_tls(settings); !tls) return tl::unexpected(tls.error());
   }
@@ -212,7 +219,9 @@ Expected<void> Listener::check_files(const ListenSettings& settings) {
       return tl::unexpected(access.error());
     }
   }
-  return {};
+  boost::asio::io_context io;
+  tcp::acceptor acceptor(io);
+  return listen_at(io, settings, acceptor);
 }
 
 Expected<std::unique_ptr<Listener>> Listener::open(const ListenSettings& settings, Hub& hub) {

@@ -12,6 +12,9 @@ namespace {
 
 // Number of pictures over which noise is averaged once nothing changes.
 constexpr int kPicturesToSettle = 16;
+// Number of times that a complete still picture is sent again: with each, the codec's errors become
+// fewer.
+constexpr int kStillRepeats = 8;
 // Share of the difference to a picture's own exposure by which each picture changes the exposure.
 constexpr float kExposureStep = 0.2f;
 
@@ -19,11 +22,11 @@ constexpr float kExposureStep = 0.2f;
 
 PictureMaker::PictureMaker(const World& world, const IrradianceField& field,
                            const PictureSettings& settings, const Camera& camera,
-                           const Hello& hello)
+                           const Hello& hello, double ms_a_pixel)
     : settings_(settings),
       world_(world),
       renderer_(world, IndirectSources{&field}),
-      pace_(settings.limits, hello.size, hello.rate),
+      pace_(settings.limits, hello.size, hello.rate, ms_a_pixel),
       camera_(camera) {}
 
 void PictureMaker::follow(const ClientInputs& inputs) {
@@ -34,10 +37,14 @@ void PictureMaker::follow(const ClientInputs& inputs) {
   last_input_ = inputs.last_input;
 }
 
+/// Whether noise has been averaged since the last change.
+bool PictureMaker::has_settled(const WorldState& state) const {
+  return state.last_change == shown_change_ && still_pictures_ >= kPicturesToSettle;
+}
+
 std::optional<Clock::time_point> PictureMaker::due(const WorldState& state) const {
-  if (state.last_change == shown_change_ && still_pictures_ >= kPicturesToSettle) {
-    return std::nullopt;
-  }
+  const bool is_sharp = pace_.size() == pace_.asked_size() || still_repeats_ >= kStillRepeats;
+  if (has_settled(state) && is_sharp) return std::nullopt;
   return last_ + std::chrono::duration_cast<Clock::duration>(
                      std::chrono::duration<double>(1.0 / static_cast<double>(pace_.rate())));
 }
@@ -59,37 +66,83 @@ Expected<void> PictureMaker::expose_unlit(FrameSettings& frame) {
   return {};
 }
 
-Expected<void> PictureMaker::render() {
+Expected<void> PictureMaker::render(const Camera& camera, glm::uvec2 size) {
   FrameSettings frame = settings_.frame;
-  frame.width = static_cast<int>(pace_.size().x);
-  frame.height = static_cast<int>(pace_.size().y);
+  frame.width = static_cast<int>(size.x);
+  frame.height = static_cast<int>(size.y);
   // with averaging, the renderer varies the seed
-  if (frame.averaged_frames == 1) frame.seed += number_;
+  if (frame.averaged_frames == 1) frame.seed += rendered_;
+  ++rendered_;
   if (const auto exposed = expose_unlit(frame); !exposed) return exposed;
-  return renderer_.render(camera_, frame, frame_);
+  return renderer_.render(camera, frame, frame_);
 }
 
-Image PictureMaker::shown() {
-  const Image& linear = *frame_.image.find("");
+Image PictureMaker::shown(const Image& linear) {
   if (settings_.exposure_stops) {
     stops_ = settings_.exposure_stops;
-  } else {
+  } else if (!still_) {
     const auto suits = display_stops(frame_.image);
     stops_ = stops_ ? *stops_ + kExposureStep * (suits - *stops_) : suits;
   }
   return display_image(linear, settings_.tone_map, *stops_);
 }
 
-Expected<Picture> PictureMaker::make(const WorldState& state, Clock::time_point now) {
-  Picture picture;
-  Stopwatch rendering;
-  if (const auto done = render(); !done) return tl::unexpected(done.error());
-  to_yuv(shown(), yuv_);
-  picture.render_ms = static_cast<float>(rendering.lap());
+/// Renders the next tile of the still picture. Returns whether there is more to see.
+Expected<bool> PictureMaker::render_tile() {
+  if (!still_) {
+    still_.emplace(camera_, *frame_.image.find(""), pace_.asked_size(), pace_.size());
+  }
+  if (still_->done()) {
+    ++still_repeats_;
+    return true;
+  }
+  const auto done = render(still_->tile_camera(), still_->tile_size());
+  if (!done) return tl::unexpected(done.error());
+  if (!still_->add(*frame_.image.find(""))) return false;
+  to_yuv(shown(still_->image()), yuv_);
+  return true;
+}
 
-  Stopwatch encoding;
-  EncoderSettings wanted{yuv_.width, yuv_.height, pace_.likely_rate(), pace_.bitrate(),
-                         settings_.encoder};
+/// Counts pictures of a state and a size.
+void PictureMaker::note_state(const WorldState& state, glm::uvec2 size) {
+  const bool continues = shown_change_ == state.last_change && shown_size_ == size;
+  still_pictures_ = continues ? still_pictures_ + 1 : 0;
+  shown_change_ = state.last_change;
+  shown_size_ = size;
+}
+
+Expected<std::optional<Picture>> PictureMaker::make(const WorldState& state,
+                                                    Clock::time_point now) {
+  last_ = now;
+  Stopwatch watch;
+  if (has_settled(state)) {
+    const auto more = render_tile();
+    if (!more) return tl::unexpected(more.error());
+    if (!*more) return std::nullopt;
+  } else {
+    still_.reset();
+    still_repeats_ = 0;
+    if (const auto done = render(camera_, pace_.size()); !done) {
+      return tl::unexpected(done.error());
+    }
+    to_yuv(shown(*frame_.image.find("")), yuv_);
+  }
+  const double render_ms = watch.lap();
+  auto picture = encode(state);
+  if (!picture) return tl::unexpected(picture.error());
+  const double encode_ms = watch.lap();
+  picture->render_ms = static_cast<float>(render_ms);
+  picture->encode_ms = static_cast<float>(encode_ms);
+  if (!still_) {
+    note_state(state, picture->size);
+    pace_.made(picture->size, render_ms + encode_ms);
+  }
+  return std::optional<Picture>(std::move(*picture));
+}
+
+Expected<Picture> PictureMaker::encode(const WorldState& state) {
+  const EncoderSettings wanted{yuv_.width, yuv_.height, pace_.likely_rate(),
+                               still_ ? pace_.asked_bitrate() : pace_.bitrate(), settings_.encoder};
   if (!encoder_ || encoder_->settings().width != wanted.width ||
       encoder_->settings().height != wanted.height) {
     Expected<PictureEncoder> encoder = PictureEncoder::make(wanted);
@@ -100,18 +153,13 @@ Expected<Picture> PictureMaker::make(const WorldState& state, Clock::time_point 
   }
   Expected<EncodedPicture> encoded = encoder_->encode(yuv_);
   if (!encoded) return tl::unexpected(encoded.error());
-  picture.encode_ms = static_cast<float>(encoding.lap());
-
+  Picture picture;
   picture.number = ++number_;
   picture.key = encoded->key ? 1 : 0;
   picture.size = {static_cast<std::uint32_t>(yuv_.width), static_cast<std::uint32_t>(yuv_.height)};
   picture.state = state.updates;
   picture.input = last_input_;
   picture.bytes = std::move(encoded->bytes);
-  pace_.made(static_cast<double>(picture.render_ms) + static_cast<double>(picture.encode_ms));
-  still_pictures_ = shown_change_ == state.last_change ? still_pictures_ + 1 : 0;
-  shown_change_ = state.last_change;
-  last_ = now;
   return picture;
 }
 

@@ -103,8 +103,9 @@ void WorldLoop::begin_pictures() {
   if (field() == nullptr) return;
   for (Viewer& viewer : viewers_) {
     if (!std::exchange(viewer.waits_for_light, false)) continue;
-    viewer.pictures = std::make_unique<PictureMaker>(served_.world, *field(), settings_.pictures,
-                                                     served_.camera, viewer.link->hello());
+    viewer.pictures =
+        std::make_unique<PictureMaker>(served_.world, *field(), settings_.pictures, served_.camera,
+                                       viewer.link->hello(), ms_a_pixel_);
     viewer.pictures->follow(viewer.first_inputs);
   }
 }
@@ -263,17 +264,18 @@ bool WorldLoop::make_pictures() {
     if (!viewer.pictures || !viewer.link->ready_for_picture()) continue;
     const auto due = viewer.pictures->due(state_);
     if (!due || *due > now) continue;
-    const Expected<Picture> picture = viewer.pictures->make(state_, now);
-    if (picture) {
-      viewer.link->put_picture(*picture);
+    const auto picture = viewer.pictures->make(state_, now);
+    if (!picture) {
+      viewer.link->put_notice(Refusal{Refusal::Code::failed, picture.error().message()});
+      viewer.pictures.reset();
+    } else if (*picture) {
+      ms_a_pixel_ = viewer.pictures->pace().ms_a_pixel();
+      viewer.link->put_picture(**picture);
       hub_.edit_stats([&](HubStats& stats) {
         ++stats.pictures;
         stats.picture_ms =
-            static_cast<double>(picture->render_ms) + static_cast<double>(picture->encode_ms);
+            static_cast<double>((*picture)->render_ms) + static_cast<double>((*picture)->encode_ms);
       });
-    } else {
-      viewer.link->put_notice(Refusal{Refusal::Code::failed, picture.error().message()});
-      viewer.pictures.reset();
     }
     any = true;
     first_viewer_ = index + 1;

@@ -101,8 +101,9 @@ class WorldLoop {
   std::optional<RelayedLight> relayed_;
   Upstream* upstream_ = nullptr;  // null: none
   std::vector<Viewer> viewers_;
-  std::uint64_t met_ = 0;         // Hub::membership of viewers_
-  std::size_t first_viewer_ = 0;  // whose picture is rendered first, in turn
+  std::uint64_t met_ = 0;                          // Hub::membership of viewers_
+  std::size_t first_viewer_ = 0;                   // whose picture is rendered first, in turn
+  double ms_a_pixel_ = Pace::kUnmeasuredMsAPixel;  // of the last picture's client
   WorldState state_;
   Clock::time_point start_;
   float duration_s_ = 0.0f;  // duration of the longest animation
