@@ -225,7 +225,7 @@ Expected<void> connect(const ConnectOptions& options) {
     begin_step("receiving pictures");
     done = receive_pictures(options, *camera, guard, *session);
   } else {
-    done = render_by_stream(options, *local, *session, *camera, guard);
+    done = render_by_stream(options, local, *session, *camera, guard);
   }
   session->close();
   if (done) guard.end_if_interrupted();

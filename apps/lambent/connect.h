@@ -54,8 +54,9 @@ struct LocalScene {
 Expected<std::unique_ptr<LocalScene>> open_local_scene(const ConnectOptions& options);
 
 /// Renders that scene in the light of a server, one picture for each update of the light, until
-/// there are enough or there is an interrupt. `camera` replaces the server's camera.
-Expected<void> render_by_stream(const ConnectOptions& options, LocalScene& local,
+/// there are enough or there is an interrupt. Opens the scene again where a server has restarted
+/// with another camera. `camera` replaces the server's camera.
+Expected<void> render_by_stream(const ConnectOptions& options, std::unique_ptr<LocalScene>& local,
                                 ServerSession& session,
                                 const std::optional<stream::CameraInput>& camera,
                                 const InterruptGuard& guard);

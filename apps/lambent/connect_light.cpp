@@ -2,6 +2,7 @@
 // Pictures of a local scene, in the light that a server sends.
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,8 +61,8 @@ RenderOptions render_options(const ConnectOptions& options) {
 /// Pictures of the options' scene in the light of a server.
 class LitPictures {
  public:
-  LitPictures(const ConnectOptions& options, LocalScene& local, const glm::ivec2& size,
-              const std::optional<stream::CameraInput>& camera)
+  LitPictures(const ConnectOptions& options, std::unique_ptr<LocalScene>& local,
+              const glm::ivec2& size, const std::optional<stream::CameraInput>& camera)
       : options_(options),
         local_(local),
         size_(size),
@@ -73,7 +74,7 @@ class LitPictures {
   /// Those written before stay.
   Expected<void> write(ServerSession& session, const InterruptGuard& guard) {
     if (const auto same = begin(session.welcome()); !same) return same;
-    stream::LitScene lit(local_.opened.scene, local_.world);
+    stream::LitScene lit(local_->opened.scene, local_->world);
     const auto done = write(session, guard, lit);
     // The next connection may be to a server that has restarted, and sends all edits in any case
     const auto restored = lit.restore();
@@ -87,13 +88,20 @@ class LitPictures {
   }
 
  private:
-  /// Gives the scene the light of its server, with the first connection.
+  /// Gives the scene the light of its server, with the first connection. The light that a server
+  /// chooses suits its camera: one that has restarted with another camera gets another scene.
   Expected<void> begin(const stream::Welcome& welcome) {
-    if (std::exchange(has_light_, true)) {
-      return check_same_scene("HOST", options_.server, welcome, local_.opened.scene);
+    if (lit_for_ == welcome.camera) {
+      return check_same_scene("HOST", options_.server, welcome, local_->opened.scene);
     }
-    return add_light_of_server("HOST", options_.server, welcome, options_.scene, local_.opened,
-                               local_.world);
+    if (lit_for_) {
+      auto again = open_local_scene(options_);
+      if (!again) return tl::unexpected(again.error());
+      local_ = std::move(*again);
+    }
+    lit_for_ = welcome.camera;
+    return add_light_of_server("HOST", options_.server, welcome, options_.scene, local_->opened,
+                               local_->world);
   }
 
   Expected<void> write(ServerSession& session, const InterruptGuard& guard, stream::LitScene& lit) {
@@ -104,9 +112,9 @@ class LitPictures {
       if (const auto came = wait_for_light(session, guard, lit); !came) return came;
       if (guard.interrupted()) break;
       begin_step("rendering the picture");
-      if (!renderer) renderer.emplace(local_.world, IndirectSources{lit.field()});
+      if (!renderer) renderer.emplace(local_->world, IndirectSources{lit.field()});
       const Camera from = stream::camera_of(camera_.value_or(session.welcome().camera));
-      if (const auto done = write_next(from, local_.world, *renderer); !done) return done;
+      if (const auto done = write_next(from, local_->world, *renderer); !done) return done;
       session.note_picture();
     }
     return {};
@@ -148,12 +156,12 @@ class LitPictures {
   }
 
   const ConnectOptions& options_;
-  LocalScene& local_;
+  std::unique_ptr<LocalScene>& local_;
   const glm::ivec2 size_;
   const std::optional<stream::CameraInput>& camera_;
   const RenderOptions render_;
   std::optional<float> stops_;
-  bool has_light_ = false;  // the scene has that of its server
+  std::optional<stream::CameraInput> lit_for_;  // the server's camera; none: no light yet
   std::vector<std::string> written_;
   RenderedFrame picture_;
 };
@@ -168,7 +176,7 @@ Expected<std::unique_ptr<LocalScene>> open_local_scene(const ConnectOptions& opt
   return std::make_unique<LocalScene>(std::move(*opened));
 }
 
-Expected<void> render_by_stream(const ConnectOptions& options, LocalScene& local,
+Expected<void> render_by_stream(const ConnectOptions& options, std::unique_ptr<LocalScene>& local,
                                 ServerSession& session,
                                 const std::optional<stream::CameraInput>& camera,
                                 const InterruptGuard& guard) {

@@ -18,7 +18,7 @@ namespace {
 constexpr int kMaxClients = 10'000;
 
 /// Accepts origins as browsers send them: a scheme, a host and, unless it is the scheme's own, a
-/// port, in small letters. Others would never match.
+/// port, in small letters; or null, as pages of files have. Others would never match.
 CLI::Validator origin() {
   const auto check = [](const std::string& text) -> std::string {
     const std::size_t end = text.find("://");
@@ -28,6 +28,7 @@ CLI::Validator origin() {
     const bool is_small = std::ranges::none_of(text, [](char c) { return c >= 'A' && c <= 'Z'; });
     const bool has_own_port = (text.starts_with("http://") && text.ends_with(":80")) ||
                               (text.starts_with("https://") && text.ends_with(":443"));
+    if (text == "null") return {};
     if (has_scheme && has_host && is_small && !has_own_port) return {};
     return "'" + text + "' is no origin that a browser sends, which is as https://example.org or " +
            "http://localhost:3000: in small letters, with neither a path nor a / at the end, and " +

@@ -90,11 +90,11 @@ struct DenoiseSettings {
   /// values leave less noise and blur more: with the default, reflections look as if the surface
   /// were 2 % rougher, with 1 as if it were 8 % rougher.
   float lobe_share = 0.5f;
-  /// With lobes: light is averaged also over this share of their width as if what they see were
-  /// infinitely far away, 0 to 16; 0: it is not. Where the light has a variance, this holds for
-  /// neighbours whose light differs by no more than its noise. Near what it reflects, a lobe sees
-  /// something else at each pixel, so that `lobe_share` leaves noise there; but what a polished
-  /// surface shows in another one lies far behind it.
+  /// With lobes, where all passes are geometric: light is averaged also over this share of their
+  /// width as if what they see were infinitely far away, 1/1024 to 16; 0: it is not. Where the
+  /// light has a variance, this holds for neighbours whose light differs by no more than its noise.
+  /// Near what it reflects, a lobe sees something else at each pixel, so that `lobe_share` leaves
+  /// noise there; but what a polished surface shows in another one lies far behind it.
   float far_lobe_share = 0.0f;
 };
 

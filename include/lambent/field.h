@@ -242,10 +242,13 @@ class IrradianceField {
 
   /// Indirect irradiance [W/m^2] at each query: light that bounced, and light from the sky; not
   /// what lights and emissive surfaces send straight. Near surfaces it follows edits within the
-  /// update that applies them; in open air, within eight. Of spans of different lengths the rest
-  /// of the longer one is left alone. Queries outside all volumes are answered by the nearest
-  /// probes of the last. Runs on all cores. `world` is what FieldSettings::visibility traces rays
-  /// in. Visibility is by distances where it is null, or not on the device that holds the field.
+  /// update that applies them; in open air, within eight. There, farther than a cell from all
+  /// surfaces that keep still and from the bounds of instances that move, it is as noisy as the
+  /// rays of a single update: probes that light no surface are traced once. Of spans of different
+  /// lengths the rest of the longer one is left alone. Queries outside all volumes are answered by
+  /// the nearest probes of the last. Runs on all cores. `world` is what FieldSettings::visibility
+  /// traces rays in. Visibility is by distances where it is null, or not on the device that holds
+  /// the field.
   void irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> result,
                   const World* world = nullptr) const;
 

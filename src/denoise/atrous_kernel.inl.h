@@ -124,7 +124,7 @@ LAMBENT_FORCE_INLINE void filter_steps(const AtrousPass& by, const AtrousRow& ro
 }
 
 /// Filters a row of a pass that checks steps and compares no light, or that of far lobes alone.
-LAMBENT_FORCE_INLINE void filter_lobes(const AtrousPass& by, const AtrousRow& row) {
+LAMBENT_FORCE_INLINE void filter_reflections(const AtrousPass& by, const AtrousRow& row) {
   if (by.far_lobes == kFarLobes) return filter_lanes(by, row, 1, 0, 0, 1, 1, kFarLobes);
   if (by.far_lobes == kFarLobesWithinNoise) {
     return filter_lanes(by, row, 1, 0, 0, 1, 1, kFarLobesWithinNoise);
@@ -134,7 +134,7 @@ LAMBENT_FORCE_INLINE void filter_lobes(const AtrousPass& by, const AtrousRow& ro
 
 static void filter_row(const AtrousPass& by, const AtrousRow& row) {
   if (by.checks_steps != 0) {
-    by.has_lobes != 0 ? filter_lobes(by, row) : filter_steps(by, row);
+    by.has_lobes != 0 ? filter_reflections(by, row) : filter_steps(by, row);
   } else if (by.has_lobes != 0) {
     by.geometric != 0 ? filter_lanes(by, row, 1, 0, 0, 1) : filter_lanes(by, row, 0, 0, 0, 1);
   } else if (by.has_base != 0) {

@@ -46,8 +46,10 @@ Expected<void> check(const DenoiseSettings& s) {
                   "above 0 to 1024"),
       check_range("lobe share", s.lobe_share >= kLeastLobeShare && s.lobe_share <= kMostLobeShare,
                   "1/1024 to 16"),
-      check_range("far lobe share", s.far_lobe_share >= 0.0f && s.far_lobe_share <= kMostLobeShare,
-                  "0 to 16")};
+      check_range("far lobe share",
+                  s.far_lobe_share == 0.0f ||
+                      (s.far_lobe_share >= kLeastLobeShare && s.far_lobe_share <= kMostLobeShare),
+                  "0 or 1/1024 to 16")};
   for (const Expected<void>& fine : checks) {
     if (!fine) return fine;
   }
@@ -107,7 +109,8 @@ std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has
   // leave edges of light that exceed its noise
   const bool tells_edges = has_base && measured && !all_geometric;
   const float inverse_share = 1.0f / settings.lobe_share;
-  const bool has_far_lobes = has_lobes && settings.far_lobe_share > 0.0f;
+  const bool has_far_lobes = has_lobes && all_geometric && settings.far_lobe_share > 0.0f;
+  const uint far_lobes = noise_from == NoiseFrom::neighbours ? kFarLobes : kFarLobesWithinNoise;
   const float inverse_far_share = has_far_lobes ? 1.0f / settings.far_lobe_share : 0.0f;
   std::vector<AtrousPass> passes;
   for (int i = 0; i < settings.passes; ++i) {
@@ -129,7 +132,7 @@ std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has
     pass.has_base = has_base ? 1 : 0;
     pass.has_levels = has_levels ? 1 : 0;
     pass.has_lobes = has_lobes ? 1 : 0;
-    if (has_far_lobes) pass.far_lobes = measured ? kFarLobesWithinNoise : kFarLobes;
+    if (has_far_lobes) pass.far_lobes = far_lobes;
     passes.push_back(pass);
   }
   return passes;

@@ -43,7 +43,7 @@ LAMBENT_REAL_FN Real difference_of_lobes(float lobe_scale, PixelLobe here, Pixel
   return (dot(apart, apart) + sideways * sideways) * sharpness + difference_of_widths(here, there);
 }
 
-/// The same of lobes that show what is infinitely far away.
+/// Exponent of a neighbour's weight by what its lobe shows if that is infinitely far away.
 LAMBENT_REAL_FN Real difference_of_far_lobes(float lobe_scale, PixelLobe here, PixelLobe there) {
   Real3 apart = there.mirror_ws - here.mirror_ws;
   Real sharpness = larger(here.sharpness, there.sharpness) * lobe_scale;

@@ -324,6 +324,9 @@ TEST(LitScene, TakesBackWhatItsServerEdited) {
   edit.intensity = 3.0f * intensity;
   ASSERT_TRUE(lit.follow(Message(edit)));
   ASSERT_EQ(scene.lights[0].intensity, edit.intensity);
+  LightInput of_none = edit;
+  of_none.light = 1'000'000;
+  ASSERT_FALSE(lit.follow(Message(of_none)));
   ASSERT_TRUE(lit.restore());
   EXPECT_EQ(scene.lights[0].intensity, intensity);
 }

@@ -164,7 +164,7 @@ TEST(ServeCommand, RendersInTheLightOfAnotherServerAndOutlivesIt) {
 
   // Another scene is told at once
   RunningServer again;
-  const ProgramResult other = run_program("serve two-rooms --light-from " + again.host());
+  const ProgramResult other = run_program("serve two-rooms --port 0 --light-from " + again.host());
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.errors, HasSubstr("another scene"));
 }
@@ -227,7 +227,8 @@ TEST(ServeCommand, RefusesOptionsThatDoNotGoTogetherBeforeItReadsTheScene) {
                              "https://x:443", "http://"}) {
     refused(std::string("--origin ") + origin, "is no origin");
   }
-  refused("--origin https://example.org:8443 --origin http://[::1]:3000 --size 8x8", "--size");
+  refused("--origin https://example.org:8443 --origin http://[::1]:3000 --origin null --size 8x8",
+          "--size");
   refused("--tokens /nowhere/tokens", "/nowhere/tokens");
   refused("--certificate /nowhere/c.pem --key /nowhere/k.pem", "/nowhere/c.pem");
   EXPECT_EQ(run_program("serve").status, 2);

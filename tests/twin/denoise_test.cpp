@@ -154,8 +154,11 @@ TEST_F(DenoiseTwin, FiltersTheSameLightOfLobes) {
     for (const bool measured : {false, true}) {
       NoisyLight light{wall.light, {}, {}};
       if (measured) light.variance = wall.variance;
-      for (const DenoiseSettings& settings : {geometric_denoising(), emitter_denoising(),
-                                              excess_denoising(), reflection_denoising(4)}) {
+      DenoiseSettings far_emitters = emitter_denoising();
+      far_emitters.far_lobe_share = 1.0f;
+      for (const DenoiseSettings& settings :
+           {geometric_denoising(), emitter_denoising(), excess_denoising(), reflection_denoising(4),
+            far_emitters}) {
         const std::vector<vec3> expected = on_host(wall.view_with_lobes(), light, settings);
         EXPECT_LT(difference(expected, on_device(wall.view_with_lobes(), light, settings)),
                   kTolerance)

@@ -339,6 +339,7 @@ TEST(Denoise, RefusesWhatIsOutOfRange) {
   EXPECT_EQ(refused([](DenoiseSettings& s) { s.lobe_share = 1e-30f; }), "lobe share");
   EXPECT_EQ(refused([](DenoiseSettings& s) { s.lobe_share = 17.0f; }), "lobe share");
   EXPECT_EQ(refused([](DenoiseSettings& s) { s.far_lobe_share = -0.1f; }), "far lobe share");
+  EXPECT_EQ(refused([](DenoiseSettings& s) { s.far_lobe_share = 1e-30f; }), "far lobe share");
   EXPECT_EQ(refused([](DenoiseSettings& s) { s.far_lobe_share = 17.0f; }), "far lobe share");
 
   const Wall wall(8, 8);

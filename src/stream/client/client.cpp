@@ -48,9 +48,11 @@ class BeastClient : private Base, public Client {
     stream.socket().set_option(tcp::no_delay(true), error);
     error = wait([&](auto done) { stream.async_handshake(beast::role_type::client, done); });
     if (settings_.tls && error == boost::asio::ssl::error::stream_truncated) {
-      return failed("ends the connection: it may not speak TLS, and want no https://", error);
+      return failed("ends the connection: it may not speak TLS, and want no https://", error,
+                    Error::Kind::bad_input);
     }
-    if (error) return failed("cannot be trusted", error);
+    if (error == beast::error::timeout) return failed("does not answer", error);
+    if (error) return failed("cannot be trusted", error, Error::Kind::bad_input);
     socket_.set_option(websocket::stream_base::decorator([&](websocket::request_type& request) {
       if (!settings_.origin.empty()) request.set(beast::http::field::origin, settings_.origin);
       if (hello) request.set(kHelloField, hello_header(*hello));
@@ -60,7 +62,8 @@ class BeastClient : private Base, public Client {
     websocket::response_type answer;
     error = wait([&](auto done) { socket_.async_handshake(answer, name(), "/stream", done); });
     if (error == beast::http::error::end_of_stream && !settings_.tls) {
-      return failed("ends the connection: it may speak TLS alone, and want https://", error);
+      return failed("ends the connection: it may speak TLS alone, and want https://", error,
+                    Error::Kind::bad_input);
     }
     if (error) return failed("refused the connection", error);
     stream.expires_never();
@@ -134,8 +137,9 @@ class BeastClient : private Base, public Client {
  private:
   std::string name() const { return host_and_port(settings_.host, settings_.port); }
 
-  tl::unexpected<Error> failed(const char* how, beast::error_code error) const {
-    return fail("", name(), std::string(how) + ": " + error.message(), Error::Kind::failed);
+  tl::unexpected<Error> failed(const char* how, beast::error_code error,
+                               Error::Kind kind = Error::Kind::failed) const {
+    return fail("", name(), std::string(how) + ": " + error.message(), kind);
   }
 
   /// Requires a trusted certificate for the host's name.

@@ -7,12 +7,14 @@
 namespace lambent::stream {
 
 Expected<void> LitScene::edit(const Edit& edit) {
-  edited_.insert(target_of(edit));
   const std::array<Edit, 1> one = {edit};
   const auto refused = editor_.apply(one);
   if (!refused) return tl::unexpected(refused.error());
-  if (refused->empty()) return {};
-  return fail("scene", "", "is not the server's: " + refused->front().why);
+  if (!refused->empty()) {
+    return fail("scene", "", "is not the server's: " + refused->front().why);
+  }
+  edited_.insert(target_of(edit));
+  return {};
 }
 
 Expected<void> LitScene::restore() {

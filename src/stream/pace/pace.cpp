@@ -70,6 +70,7 @@ void Pace::ask(glm::uvec2 size, float rate) {
   if (asked_size_ == before) return;
   // The largest size that is fast enough
   step_ = steady_pictures_ = pictures_at_step_ = 0;
+  has_grown_ = false;
   while (step_ < kLastStep && ms_at(step_) > kFastEnough * limits_.picture_ms) ++step_;
 }
 
@@ -112,7 +113,7 @@ double Pace::bits_a_pixel_at(int step) const {
   return std::clamp(kept, more, kMostBits);
 }
 
-/// The same within the limits of the bit rate.
+/// Bits of a pixel at another size, within the limits of the bit rate.
 double Pace::bits_at(int step) const {
   const double pixels_of_second = pixels_at(step) * rate_at(step);
   const double most = std::max(kLeastBitrate, static_cast<double>(limits_.bitrate));

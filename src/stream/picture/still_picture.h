@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A large picture of a view at rest. It is rendered in tiles, each of which takes no longer than
-// one of the small pictures that a slow machine sends while something moves.
+// A large picture of a view at rest. It is rendered in tiles, each of which takes about as long as
+// one of the small pictures that a slow machine sends while something moves, unless these are
+// smaller than a tile can be.
 #pragma once
 
 #include <cstddef>

@@ -71,6 +71,8 @@ struct CameraInput {
   glm::vec3 position_ws{0.0f};                        ///< [m]
   glm::vec4 world_from_view{0.0f, 0.0f, 0.0f, 1.0f};  ///< Rotation, a unit quaternion x, y, z, w.
   float vertical_fov = 0.785398163f;                  ///< [rad]
+
+  bool operator==(const CameraInput&) const = default;
 };
 
 /// Sets the time of day in the shared scene, which turns its first directional light.

@@ -44,8 +44,8 @@ struct ListenSettings {
 /// Serves from construction to destruction, on a thread of its own.
 class Listener {
  public:
-  /// Fails on certificates, keys, tokens and addresses that cannot be used now, as `open` will.
-  /// Leaves nothing open.
+  /// Fails on certificates, keys, tokens and addresses that cannot be used now. Leaves nothing
+  /// open.
   static Expected<void> check(const ListenSettings& settings);
   /// Refers to the hub, which must outlive it. Fails on addresses where it cannot listen, on files
   /// that cannot be read or do not match, and without tokens on addresses other than loopback.

@@ -6,6 +6,7 @@
 #include "compose/unlit.h"
 #include "core/image/exposure.h"
 #include "core/stopwatch.h"
+#include "scene/validate.h"
 
 namespace lambent::stream {
 namespace {
@@ -43,7 +44,7 @@ bool PictureMaker::has_settled(const WorldState& state) const {
 }
 
 std::optional<Clock::time_point> PictureMaker::due(const WorldState& state) const {
-  const bool is_sharp = pace_.size() == pace_.asked_size() || still_repeats_ >= kStillRepeats;
+  const bool is_sharp = shown_size_ == pace_.asked_size() || still_repeats_ >= kStillRepeats;
   if (has_settled(state) && is_sharp) return std::nullopt;
   return last_ + std::chrono::duration_cast<Clock::duration>(
                      std::chrono::duration<double>(1.0 / static_cast<double>(pace_.rate())));
@@ -96,7 +97,12 @@ Expected<bool> PictureMaker::render_tile() {
     ++still_repeats_;
     return true;
   }
-  const auto done = render(still_->tile_camera(), still_->tile_size());
+  const Camera camera = still_->tile_camera();
+  if (flaw_of(camera) != nullptr) {  // its view is too narrow
+    still_repeats_ = kStillRepeats;
+    return false;
+  }
+  const auto done = render(camera, still_->tile_size());
   if (!done) return tl::unexpected(done.error());
   if (!still_->add(*frame_.image.find(""))) return false;
   to_yuv(shown(still_->image()), yuv_);
