@@ -13,7 +13,7 @@ namespace {
 // Time between attempts to join.
 constexpr std::chrono::milliseconds kRetry{250};
 // Interval at which interrupts are looked for while nothing arrives.
-constexpr std::chrono::milliseconds kLook{100};
+constexpr std::chrono::milliseconds kInterruptPoll{100};
 
 }  // namespace
 
@@ -36,7 +36,7 @@ Expected<std::optional<stream::Message>> ServerSession::receive_until(
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
         end - std::chrono::steady_clock::now());
     if (left.count() <= 0) break;
-    auto message = joined_.client->receive(std::min(left, kLook));
+    auto message = joined_.client->receive(std::min(left, kInterruptPoll));
     if (!message) {
       // Messages that are not of the protocol are bad input, and leave the connection as it is
       if (message.error().kind == Error::Kind::failed) lost_ = true;

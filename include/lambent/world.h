@@ -49,12 +49,12 @@ class World {
   /// Number of updates that changes_since can return.
   static constexpr std::size_t kLogLength = 256;
 
-  /// Builds everything. Throws std::invalid_argument with the reason where validate does not accept
-  /// the scene. Where several emissive
-  /// triangles, or more than 16 point and spot lights, can be chosen from, this learns from up to
-  /// half a million rays which surfaces see them (a tenth of a second or two). On a device
-  /// (lambent/vulkan.h) rays are traced there, and passes that can run there do; null: on the
-  /// processor. Throws std::runtime_error where the ray tracer cannot start or memory runs out.
+  /// Builds everything. Where several emissive triangles, or more than 16 point and spot lights,
+  /// can be chosen from, this learns from up to half a million rays which surfaces see them (a
+  /// tenth of a second or two). On a device (lambent/vulkan.h) rays are traced there, and passes
+  /// that can run there do; null: on the processor. Throws std::invalid_argument with the reason
+  /// where validate does not accept the scene, and std::runtime_error where the ray tracer cannot
+  /// start or memory runs out.
   explicit World(const Scene& scene, std::shared_ptr<vulkan::Device> device = nullptr);
   /// A temporary scene would not outlive the world.
   explicit World(const Scene&& scene, std::shared_ptr<vulkan::Device> device = nullptr) = delete;

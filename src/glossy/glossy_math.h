@@ -51,7 +51,8 @@ const float kMaxReuseWeight = 4.0f;
 /// albedo.
 const float kRaysOfMean = 4.0f;
 
-/// From this many rays of equal weight their own variance counts, not one that is assumed.
+/// From this many rays of equal weight, half of those in reach, their own variance counts, not one
+/// that is assumed.
 const float kRaysOfVariance = 8.0f;
 
 /// Neighbours of less weight are skipped: the reciprocal of their weight would be infinite.

@@ -68,7 +68,7 @@ TEST(ConnectCommand, GoesOnOnceItsServerIsBack) {
   }
 }
 
-TEST(ConnectCommand, NamesItsPicturesWhereItIsInterruptedWithoutAServer) {
+TEST(ConnectCommand, EndsWhereItIsInterruptedWithoutAServer) {
   const test::TemporaryDirectory directory;
   RunningServer server;
   ASSERT_GT(server.port(), 0) << server.said();

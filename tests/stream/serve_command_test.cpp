@@ -89,6 +89,7 @@ TEST(ServeCommand, TellsWhatKeepsItFromStartingBeforeItReadsTheScene) {
   const auto refused = [&](const std::string& arguments, const std::string& why) {
     const ProgramResult result =
         run_program("serve " + directory.file("broken.gltf") + " " + arguments);
+    EXPECT_NE(result.status, 0) << arguments;
     EXPECT_THAT(result.errors, HasSubstr(why)) << arguments;
   };
   refused("--port " + std::to_string(server.port()), "in use");
