@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // usage: faults.test.mjs PROGRAM
-// The page of lambent serve in Chromium, where a picture is broken, the page sleeps, and the server is killed and starts
+// The page of lambent serve in Chromium, where pictures are broken, the page sleeps, and the server is killed and starts
 // again: each time pictures go on. Exits with 77 where there is no Chromium.
 import { Checks, launch, listen, until, WEBGL } from './chromium.mjs';
 import { Server } from './server.mjs';
@@ -17,15 +17,15 @@ const port = await server.started;
 const url = await server.url();
 const page = await browser.newPage({ viewport: { width: 192, height: 700 }, deviceScaleFactor: 1 });
 
-let connections = 0, breakNext = false;
+let connections = 0, breaks = false; // all pictures of a connection: a key picture would mend what one has broken
 await page.routeWebSocket(/stream$/, (socket) => {
   ++connections;
+  breaks = false;
   const upstream = socket.connectToServer();
   upstream.onMessage((message) => {
-    if (breakNext && message.readUInt32LE(0) === PICTURE) {
+    if (breaks && message.readUInt32LE(0) === PICTURE) {
       message = Buffer.from(message);
       message.fill(0xa5, PICTURE_BYTES_AT);
-      breakNext = false;
     }
     socket.send(message);
   });
@@ -47,10 +47,10 @@ async function goesOn(what) {
 await page.goto(url);
 await goesOn('at first');
 
-breakNext = true;
+breaks = true;
 await page.keyboard.press('ArrowRight', { delay: 60 });
 await until(() => connections === 2, 'another connection');
-await goesOn('after a broken picture');
+await goesOn('after broken pictures');
 
 const sleep = await page.context().newCDPSession(page);
 await sleep.send('Page.setWebLifecycleState', { state: 'frozen' });
