@@ -22,10 +22,11 @@ struct FilteredCoats {
   std::vector<glm::vec3> normals_ws;     ///< Clearcoats' normals; empty for coats.
   std::vector<float> alphas;             ///< GGX widths; 0 where no rays light a coat.
   std::vector<float> inverse_distances;  ///< See CoatGuide.
-  /// Of the luminance of `light` as one ray brings it, or as many rays as there are averaged
-  /// frames: neighbours share their rays, so that the light of each is that of one. Empty: unknown.
+  /// Variance of the luminance that a single ray brings to `light`, divided by the number of frames
+  /// that are averaged. Neighbours take nearly the same rays, so that n pixels are worth n rays,
+  /// though each takes more. Empty: unknown.
   std::vector<float> variance;
-  std::vector<glm::vec3> filtered;  ///< Both once filtered; empty where there is none.
+  std::vector<glm::vec3> filtered;  ///< Light and excess, once filtered; empty: there is none.
 
   /// Makes room for this many pixels; 0 for none.
   void resize(std::size_t pixels, bool has_variance);

@@ -17,12 +17,12 @@ constexpr float kLeastLobeShare = 1.0f / 1024.0f, kMostLobeShare = 16.0f;
 // in the light around them. Twice that takes more noise off, and lights what should be dark beside
 // narrow reflections (docs/math.md, "Rare bright rays").
 constexpr float kExcessLobeShare = 1.5f;
-// Of what is near, less: twice this share puts light on dark strips between bright ones.
+// Excess is averaged over this share as if what lobes show were far away. Twice that puts light on
+// the dark frame of a mirror between the bulbs on it (docs/math.md, "Metal in metal").
 constexpr float kFarExcessLobeShare = 0.25f;
 
-// Light that differs by less than its noise is averaged over this share of lobes' width. Twice that
-// takes another tenth of the noise off metal that sees metal, but may widen reflections by a
-// quarter.
+// Light that differs by less than its noise is averaged over this share of lobes' width:
+// reflections then look as if surfaces were up to 8 % rougher, with twice the share 28 %.
 constexpr float kFarLobeShare = 1.0f;
 
 Expected<void> check_range(const char* name, bool fine, const char* range) {

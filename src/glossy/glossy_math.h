@@ -285,7 +285,8 @@ LAMBENT_FN float ray_variance_of(CoatSums sums) {
   float total = luminance(sums.light + sums.emission);
   if (total <= 0.0f) return 0.0f;
   float variance = max(sums.squares * sums.weight / (total * total) - 1.0f, 0.0f);
-  // Of few rays the variance is not known: that of rays of which each second one finds light
+  // The variance of few rays is not known. It is assumed to be at least their squared mean, as
+  // where every second ray finds light
   float rays = sums.weight * sums.weight / max(sums.squared_weights, kLeastPixelWeight);
   return max(variance, clamp((kRaysOfVariance - rays) / (kRaysOfVariance - 1.0f), 0.0f, 1.0f));
 }

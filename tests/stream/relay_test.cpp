@@ -346,7 +346,9 @@ TEST(Relay, IsKnownToItsServerByATokenAndChecksItsCertificate) {
   from.connect.host = "localhost";
   from.connect.tls = true;
   from.token = look;
-  EXPECT_FALSE(Upstream::open(from)) << "nobody trusts it";
+  const auto untrusted = Upstream::open(from);
+  ASSERT_FALSE(untrusted) << "nobody trusts it";
+  EXPECT_EQ(untrusted.error().kind, Error::Kind::bad_input) << "waiting does not help";
   from.connect.authority = settings.listen.certificate;
   from.token = "guessed-guessed-guessed";
   const auto guessed = Upstream::open(from);

@@ -2,13 +2,10 @@
 // lambent serve, as it is typed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <poll.h>
 #include <signal.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -83,9 +80,7 @@ TEST(ServeCommand, TellsWhatKeepsItFromStartingBeforeItReadsTheScene) {
   const test::TemporaryDirectory directory;
   RunningServer server;
   ASSERT_GT(server.port(), 0) << server.said();
-  // That this cannot be read is found out after all that can be told before
-  std::ofstream(directory.file("broken.gltf"))
-      << R"({"asset": {"version": "2.0"}, "buffers": [{"uri": "none.bin", "byteLength": 9}]})";
+  test::write_broken_scene(directory.file("broken.gltf"));
   const auto refused = [&](const std::string& arguments, const std::string& why) {
     const ProgramResult result =
         run_program("serve " + directory.file("broken.gltf") + " " + arguments);

@@ -57,4 +57,11 @@ inline pid_t start_program(const std::vector<std::string>& arguments) {
   return child;
 }
 
+/// Writes a scene of which a buffer is missing. A command finds that out once it reads the scene,
+/// after all that it can tell before.
+inline void write_broken_scene(const std::string& path) {
+  std::ofstream(path)
+      << R"({"asset": {"version": "2.0"}, "buffers": [{"uri": "none.bin", "byteLength": 9}]})";
+}
+
 }  // namespace lambent::test
