@@ -27,8 +27,11 @@ constexpr float kMinEmissionRatio = 0.1f;
 // Lamps, such as a photographer's soft boxes, the neon tubes of a street at night, or lanterns in a
 // garden, differ from signs in that they light most of a view, at least the first share of it, and
 // are brighter than what glTF files emit without KHR_materials_emissive_strength [W/(m^2 sr)].
-// Beside them, the view may be darker: a thousandth is still visible where they are white.
+// Beside them, the view may be darker: a thousandth is still visible where they are white. It may
+// be darker still where it is lit evenly, as by a bulb, which is small: a quarter of the view, at
+// most, is more than three stops darker than its brightest tenth.
 constexpr float kMinLitByLamps = 0.8f, kMaxSignRadiance = 1.0f, kMinLampRatio = 0.001f;
+constexpr float kMinEvenness = 1.0f / 8.0f;
 // A court or a street under open sky is lit by its own emitters only if they light this share of
 // the view; otherwise it is shown by day.
 constexpr float kMinLitByNight = 0.9f;
@@ -193,7 +196,8 @@ bool is_open_in_front(const World& world, const Bounds& subject) {
          kMaxSweepAround * kRaysToSweep;
 }
 
-/// Whether a scene stands on a ground, rather than being an object that is shown by itself.
+/// Whether a scene stands on a ground, rather than being an object that is shown by itself, such as
+/// a case, whose bottom is no ground.
 bool is_outdoors(const World& world) {
   const Subject subject = find_subject(world);
   if (subject.bounds.empty()) return false;
@@ -201,7 +205,8 @@ bool is_outdoors(const World& world) {
   const bool on_sweep = dwarfed && subject.site.max.y > subject.bounds.max.y &&
                         diagonal(subject.site) < kMaxSweep &&
                         is_open_in_front(world, subject.bounds);
-  return !on_sweep && (dwarfed || has_ground(world, subject.bounds));
+  if (dwarfed) return !on_sweep;
+  return has_ground(world, subject.bounds) && !is_open_housing(survey_space(world, subject.bounds));
 }
 
 /// Whether suns shine out of a void that the camera sees past things on a ground, over a court, or
@@ -246,9 +251,9 @@ FirstLight choose_first_light(const World& world, const Camera& camera) {
   const SeenView view = sample_view(world, camera);
   const ViewLight light = measure_view_light(world, view);
   const bool indoors = enclosure(world, camera) >= kMinEnclosure;
-  const bool lit_by_lamps = light.lit_by_emission >= kMinLitByLamps &&
-                            light.emitter_radiance > kMaxSignRadiance &&
-                            light.emission_ratio >= kMinLampRatio;
+  const bool lit_by_lamps =
+      light.lit_by_emission >= kMinLitByLamps && light.emitter_radiance > kMaxSignRadiance &&
+      (light.emission_ratio >= kMinLampRatio || light.evenness >= kMinEvenness);
   if (light.lit_by_emission >= kMinLitShare) {
     const bool under_sky = light.sky_visibility > kMaxSkyIndoors && has_court(world, false);
     const bool lit = indoors ? light.lit_by_emission >= kMinLitByNight || !under_sky

@@ -114,7 +114,8 @@ Expected<FirstView> first_view(const World& world, const FirstViewSettings& sett
   if (const auto inside = room_view(world, subject, survey, room_fov, settings.aspect)) {
     return seen_from(world, *inside, settings.aspect, true);
   }
-  const Camera outside = outside_view(world, subject, object_fov, settings.aspect);
+  const ViewedFrom from = is_open_housing(survey) ? ViewedFrom::above : ViewedFrom::anywhere;
+  const Camera outside = outside_view(world, subject, from, object_fov, settings.aspect);
   if (const auto site = find_site(world, subject)) {
     if (const auto view = view_on_site(world, subject, *site, outside, room_fov, settings.aspect)) {
       return seen_from(world, *view, settings.aspect, true);

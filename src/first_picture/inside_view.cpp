@@ -18,10 +18,9 @@
 namespace lambent {
 namespace {
 
-// In rooms of these heights [m], eyes are at the height of a standing person; in others, whose
-// unit is not the metre or which are models of rooms, at a share of the room's height. Streets and
-// courts may be deeper than rooms are high.
-constexpr float kMinRoomHeight = 1.9f, kMaxRoomHeight = 20.0f, kMaxStreetDepth = 100.0f;
+// In rooms for people, eyes are at the height of a standing person; in others, at this share of the
+// room's height. Streets and courts may be deeper [m] than rooms are high.
+constexpr float kMaxStreetDepth = 100.0f;
 constexpr float kEyeShareOfHeight = 0.45f;
 // Highest eye in a room of human scale, as a share of its height.
 constexpr float kMaxEyeShareOfHeight = 0.6f;
@@ -87,10 +86,6 @@ constexpr float kMinDepth = 0.06f, kMaxBacks = 0.6f;
 // scene is: in a town the ground before one's feet and the houses across the street are near.
 constexpr float kEnoughClearance = 1.0f, kEnoughDepth = 5.0f;
 
-float height_of(const OpenPlace& place) {
-  return place.ceiling - place.floor;
-}
-
 /// Whether a place is as high as a room or, below the open sky, as houses along a street, in
 /// metres.
 bool has_human_scale(const OpenPlace& place) {
@@ -101,13 +96,9 @@ bool has_human_scale(const OpenPlace& place) {
 /// The first places, at most `most`, where an observer could stand.
 std::vector<OpenPlace> standing_places(std::span<const OpenPlace> sheltered, std::size_t most) {
   if (sheltered.empty()) return {};
-  std::vector<float> heights(sheltered.size());
-  std::transform(sheltered.begin(), sheltered.end(), heights.begin(), height_of);
-  const auto median = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), median, heights.end());
-  float least = kStandingShare * *median;
-  const bool in_metres = *median >= kMinRoomHeight && *median <= kMaxRoomHeight;
-  if (in_metres) least = std::min(least, kMinRoomHeight);
+  const float median = median_height(sheltered);
+  float least = kStandingShare * median;
+  if (is_room_height(median)) least = std::min(least, kMinRoomHeight);
   std::vector<OpenPlace> standing;
   for (const OpenPlace& place : sheltered) {
     if (standing.size() == most) break;

@@ -19,12 +19,35 @@ constexpr float kMinShellElevation = 0.09f, kMaxShellElevation = 0.7f;
 constexpr float kMinEnclosed = 0.25f, kMinEnclosedByTwoSided = 0.5f;
 // Largest share of a room's surface whose front is visible from outside.
 constexpr float kMaxShown = 0.6f;
+// The same where heights are not those of rooms in metres: in a model of a room, and in a thing
+// with air within, such as a car or a housing. Walls that are single two-sided sheets show outside
+// what they show inside.
+constexpr float kMaxShownOfModel = 0.4f, kMaxShownOfTwoSidedModel = 0.55f;
+// A housing has no surface above this share of its air.
+constexpr float kMostOpenAbove = 0.5f;
+
+/// Whether enough of a subject's box is enclosed for a shell.
+bool is_shell(const SpaceSurvey& survey) {
+  const float needed = glm::mix(kMinEnclosed, kMinEnclosedByTwoSided, survey.two_sided_share);
+  return !survey.enclosed.empty() && survey.enclosed_share >= needed;
+}
+
+/// Most of a room's surface whose front may be visible from outside.
+float most_shown(const SpaceSurvey& survey) {
+  if (is_room_height(median_height(survey.enclosed))) return kMaxShown;
+  return glm::mix(kMaxShownOfModel, kMaxShownOfTwoSidedModel, survey.two_sided_share);
+}
 
 }  // namespace
 
+bool is_open_housing(const SpaceSurvey& survey) {
+  if (!is_shell(survey) || is_room_height(median_height(survey.enclosed))) return false;
+  const auto open = std::ranges::count_if(survey.enclosed, &OpenPlace::open_above);
+  return static_cast<float>(open) >= kMostOpenAbove * static_cast<float>(survey.enclosed.size());
+}
+
 bool is_room(const World& world, const Subject& subject, const SpaceSurvey& survey) {
-  const float needed = glm::mix(kMinEnclosed, kMinEnclosedByTwoSided, survey.two_sided_share);
-  if (survey.enclosed_share < needed) return false;
+  if (!is_shell(survey) || is_open_housing(survey)) return false;
   const std::vector<SurfaceSample> points =
       sample_surfaces(world.scene(), subject.instances, kShellPoints);
   if (points.empty()) return false;
@@ -50,11 +73,14 @@ bool is_room(const World& world, const Subject& subject, const SpaceSurvey& surv
   const std::vector<Hit> hits = trace(world, rays);
   std::vector<char> shown(points.size(), 0);
   for (std::size_t r = 0; r < rays.size(); ++r) {
-    if (hits[r].missed() || !hides[hits[r].instance]) shown[point_of_ray[r]] = 1;
+    char& is_shown = shown[point_of_ray[r]];
+    if (is_shown != 0) continue;
+    const bool free = hits[r].missed() || !hides[hits[r].instance];
+    is_shown = free || leads_to_sky(world, rays[r]) ? 1 : 0;
   }
   const auto count = static_cast<float>(std::count(shown.begin(), shown.end(), 1));
   const float shown_share = count / static_cast<float>(points.size());
-  return shown_share <= kMaxShown;
+  return shown_share <= most_shown(survey);
 }
 
 }  // namespace lambent

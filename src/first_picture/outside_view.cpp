@@ -38,6 +38,8 @@ constexpr std::array kStands = {
     Stand{12, 12, 0.05f},  Stand{168, 12, 0.24f},  Stand{30, 40, 0.20f},  Stand{-30, 40, 0.23f},
     Stand{30, 62, 0.34f},  Stand{-30, 62, 0.36f},  Stand{150, 40, 0.30f}, Stand{-150, 40, 0.32f},
     Stand{30, -20, 0.40f}, Stand{150, -20, 0.50f}, Stand{90, 12, 0.20f},  Stand{-90, 12, 0.22f}};
+// Least elevation of views from above [degrees]: lower down, a wall hides what is within a housing.
+constexpr float kMinSteep = 30.0f;
 // Weights of a candidate's score: the share of the surface that it shows, the share of the frame
 // that the subject covers, and the share of that which shows backs.
 constexpr float kSeenWeight = 0.6f, kCoverWeight = 0.4f, kShownBackWeight = 0.25f;
@@ -161,7 +163,8 @@ Judgement judge(const World& world, const Camera& camera, const std::vector<Surf
 
 }  // namespace
 
-Camera outside_view(const World& world, const Subject& subject, float vertical_fov, float aspect) {
+Camera outside_view(const World& world, const Subject& subject, ViewedFrom from, float vertical_fov,
+                    float aspect) {
   const Scene& scene = world.scene();
   const glm::vec3 center = 0.5f * (subject.bounds.min + subject.bounds.max);
   if (diagonal(subject.bounds) == 0.0f) {
@@ -186,6 +189,7 @@ Camera outside_view(const World& world, const Subject& subject, float vertical_f
   std::size_t best = 0;
   float best_score = -kInfiniteDistance;
   for (std::size_t i = 0; i < kStands.size(); ++i) {
+    if (from == ViewedFrom::above && kStands[i].elevation < kMinSteep) continue;
     const float seen = most_seen > 0.0f ? judgements[i].seen / most_seen : 0.0f;
     const float cover = most_cover > 0.0f ? judgements[i].cover / most_cover : 0.0f;
     const float score = kSeenWeight * seen + kCoverWeight * cover -

@@ -27,6 +27,9 @@ constexpr int kEmitterSamples = 16, kBounceSamples = 4;
 // Points are lit where they receive at least this share of the median of those that receive any
 // light: others are dark in comparison.
 constexpr float kLitShare = 1.0f / 32.0f;
+// Unlit materials have colours, but no unit of light. They count as emitters only where at least
+// this share of the samples shows them, as walls whose light was baked, and not for a poster.
+constexpr float kMostlyUnlit = 0.5f;
 // Number of directions around the camera.
 constexpr int kSphereRays = 64;
 // Seed of the random numbers of measurements.
@@ -49,9 +52,16 @@ struct PointLight {
   int escaped = 0;                 ///< Number of rays that left the scene, through glass or not.
 };
 
+/// The emissive surfaces that may light a view.
+struct CountedEmitters {
+  const World& world;
+  bool unlit;  ///< Whether those of unlit materials count.
+};
+
 /// Irradiance from emissive surfaces, estimated from `samples` samples of them.
-float emitted_irradiance(const World& world, const LitPoint& point, int samples,
+float emitted_irradiance(const CountedEmitters& by, const LitPoint& point, int samples,
                          RandomStream& random, float& brightest_emitter) {
+  const World& world = by.world;
   const EmissiveTriangles& emissive = emissive_of(world);
   if (emissive.empty()) return 0.0f;
   float sum = 0.0f;
@@ -64,6 +74,7 @@ float emitted_irradiance(const World& world, const LitPoint& point, int samples,
                                                  std::min(u, kLargestUniform));
     if (pick.probability <= 0.0f || pick.light >= emissive.size()) continue;
     const EmitterRecord& emitter = emissive.entries()[pick.light];
+    if (!by.unlit && is_unlit(material_of(world.scene(), emitter.instance))) continue;
     const TrianglePointSeen seen =
         draw_on_triangle(emitter.corner_ws - point.position_ws, emitter.edge1_ws, emitter.edge2_ws,
                          next_uniform2(random));
@@ -82,10 +93,11 @@ float emitted_irradiance(const World& world, const LitPoint& point, int samples,
   return sum;
 }
 
-PointLight light_at(const World& world, const LitPoint& point, RandomStream& random) {
+PointLight light_at(const CountedEmitters& by, const LitPoint& point, RandomStream& random) {
+  const World& world = by.world;
   PointLight light;
   light.irradiance =
-      emitted_irradiance(world, point, kEmitterSamples, random, light.brightest_emitter);
+      emitted_irradiance(by, point, kEmitterSamples, random, light.brightest_emitter);
   for (int r = 0; r < kRaysPerPoint; ++r) {
     const glm::vec3 direction =
         sample_cosine_about(point.geometric_normal_ws, next_uniform2(random));
@@ -99,7 +111,7 @@ PointLight light_at(const World& world, const LitPoint& point, RandomStream& ran
     const Surface surface = surface_at(world.scene(), ray, hit);
     const float albedo = largest(surface.reflectance.diffuse);
     light.irradiance += albedo *
-                        emitted_irradiance(world, lit_point(surface), kBounceSamples, random,
+                        emitted_irradiance(by, lit_point(surface), kBounceSamples, random,
                                            light.brightest_emitter) /
                         kRaysPerPoint;
   }
@@ -132,10 +144,15 @@ SeenView sample_view(const World& world, const Camera& camera) {
   const std::vector<Ray> rays = frame_rays(camera, kAspect, kAcross, kUp);
   const std::vector<Hit> hits = trace(world, rays);
   SeenView view;
+  std::size_t unlit = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (hits[i].missed()) continue;
     const Surface surface = surface_at(world.scene(), rays[i], hits[i]);
     view.points.push_back({lit_point(surface), largest(surface.emission)});
+    unlit += is_unlit(material_of(world.scene(), hits[i].instance)) ? 1 : 0;
+  }
+  if (unlit > 0) {
+    view.unlit_share = static_cast<float>(unlit) / static_cast<float>(view.points.size());
   }
   ShadowRays towards_sky;
   towards_sky.trace(tracer_of(world), rays);
@@ -149,11 +166,12 @@ SeenView sample_view(const World& world, const Camera& camera) {
 
 ViewLight measure_view_light(const World& world, const SeenView& view) {
   const std::size_t count = view.points.size();
+  const CountedEmitters by{world, view.unlit_share >= kMostlyUnlit};
   std::vector<PointLight> lights(count);
   parallel_chunks(count, 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       RandomStream random = make_random_stream(static_cast<std::uint32_t>(i), 0, kLightSeed);
-      lights[i] = light_at(world, view.points[i].point, random);
+      lights[i] = light_at(by, view.points[i].point, random);
     }
   });
 
@@ -176,13 +194,14 @@ ViewLight measure_view_light(const World& world, const SeenView& view) {
     light.sky_visibility = static_cast<float>(open) / static_cast<float>(count * kRaysPerPoint);
   }
   if (!lit.empty()) {
-    const auto middle = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() / 2);
-    std::nth_element(lit.begin(), middle, lit.end());
-    const float least = *middle * kLitShare;
+    std::ranges::sort(lit);
+    const float middle = lit[lit.size() / 2], ninth_decile = lit[lit.size() * 9 / 10];
+    light.evenness = lit[lit.size() / 4] / ninth_decile;
+    const float least = middle * kLitShare;
     const auto bright = std::count_if(lit.begin(), lit.end(), [&](float e) { return e >= least; });
     if (emitted > 0.0f) light.emitter_radiance = emitted / static_cast<float>(count - reflecting);
     light.emission_ratio =
-        emitted > 0.0f ? *middle * kInvPi / light.emitter_radiance : kInfiniteDistance;
+        emitted > 0.0f ? middle * kInvPi / light.emitter_radiance : kInfiniteDistance;
     light.lit_by_emission = static_cast<float>(bright) / static_cast<float>(reflecting);
   }
   return light;

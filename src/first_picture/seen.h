@@ -21,12 +21,14 @@ struct SeenPoint {
 /// What the camera sees, sampled on a coarse grid over a picture of 16:9.
 struct SeenView {
   std::vector<SeenPoint> points;  ///< Samples that show a surface.
+  float unlit_share = 0.0f;       ///< Share of these that shows an unlit material.
   float sky_share = 0.0f;         ///< Share of the samples that show the sky, also through glass.
 };
 /// Samples what the camera sees.
 SeenView sample_view(const World& world, const Camera& camera);
 
-/// Statistics of the light at a view's points.
+/// Statistics of the light at a view's points. Where few of them are unlit, unlit surfaces light
+/// none.
 struct ViewLight {
   float lit_by_emission =
       0.0f;                     ///< Share of the points that emissive surfaces light, directly or
@@ -34,6 +36,7 @@ struct ViewLight {
   float emission_ratio = 0.0f;  ///< Median radiance that those would reflect if they were white,
                                 ///< over the mean radiance of the emitters that the camera sees;
                                 ///< infinite where it sees none.
+  float evenness = 0.0f;        ///< First quartile of what those receive, over its ninth decile.
   float emitter_radiance = 0.0f;  ///< Mean over the emitters that the camera sees [W/(m^2 sr)].
   /// Largest radiance of the emitters whose light reaches the points, directly or after a bounce
   /// [W/(m^2 sr)].

@@ -159,6 +159,14 @@ bool leads_to_sky(const World& world, const Ray& ray) {
   return std::max({share.r, share.g, share.b}) >= kMinClearTransmittance;
 }
 
+float median_height(std::span<const OpenPlace> places) {
+  std::vector<float> heights(places.size());
+  std::ranges::transform(places, heights.begin(), height_of);
+  const auto median = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+  std::ranges::nth_element(heights, median);
+  return *median;
+}
+
 SpaceSurvey survey_space(const World& world, const Bounds& bounds, SurveyedPlaces which) {
   // Trace rays around, up and down from random places
   constexpr int kRays = kWaysAround + 2;

@@ -50,6 +50,22 @@ struct OpenPlace {
   bool under_sky = false;       ///< The sky is visible above, through glass or not.
 };
 
+/// Height of the air at a place [m].
+inline float height_of(const OpenPlace& place) {
+  return place.ceiling - place.floor;
+}
+
+/// The median height [m] of places, of which there is at least one.
+float median_height(std::span<const OpenPlace> places);
+
+// Heights of rooms [m]. Scenes of other heights have another unit than the metre, or are models.
+inline constexpr float kMinRoomHeight = 1.9f, kMaxRoomHeight = 20.0f;
+
+/// Whether a room of this height [m] is one for people.
+inline bool is_room_height(float height) {
+  return height >= kMinRoomHeight && height <= kMaxRoomHeight;
+}
+
 /// Random places in a box, classified.
 struct SpaceSurvey {
   /// Places in air with surfaces around, in a fixed random order.

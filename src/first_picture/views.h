@@ -2,6 +2,7 @@
 // Candidates for a first view, and their ranking.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "first_picture/site.h"
@@ -14,8 +15,15 @@ namespace lambent {
 /// Height of a standing person's eyes [m].
 inline constexpr float kEyeHeight = 1.6f;
 
+/// From where a subject is viewed.
+enum class ViewedFrom : std::uint8_t {
+  anywhere,
+  above,  ///< Steeply: into a housing.
+};
+
 /// The best view of the subject from outside that has all of it in the frame.
-Camera outside_view(const World& world, const Subject& subject, float vertical_fov, float aspect);
+Camera outside_view(const World& world, const Subject& subject, ViewedFrom from, float vertical_fov,
+                    float aspect);
 
 /// The best view at eye height from one of the sheltered places; none where all of them would face
 /// a wall. `bounds` contains the room.

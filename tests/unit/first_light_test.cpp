@@ -288,6 +288,40 @@ TEST(FirstLight, IsWhatSoftBoxesSendWhereTheyLightAll) {
   EXPECT_NE(choose_first_light(World(scene), camera), FirstLight::scene);
 }
 
+TEST(FirstLight, IsNotTheColourOfAnUnlitPoster) {
+  // A room without a front wall, and a poster of two square metres on its back wall
+  const auto room = [](bool unlit_walls) {
+    Scene scene =
+        scene_of({box_mesh({-3, -0.2f, -3}, {3, 0, 3}), box_mesh({-3, 3, -3}, {3, 3.2f, 3}),
+                  box_mesh({-3.2f, 0, -3}, {-3, 3, 3}), box_mesh({3, 0, -3}, {3.2f, 3, 3}),
+                  box_mesh({-3, 0, -3.2f}, {3, 3, -3}), box_mesh({-3, 0, 3}, {3, 3, 3.2f})});
+    scene.materials[0].unlit = unlit_walls;
+    scene.materials.push_back(test::lambert(glm::vec3(0.7f)));
+    scene.materials.back().unlit = !unlit_walls;
+    test::add(scene, test::quad({-1, 1, -2.95f}, {2, 0, 0}, {0, 1, 0}, 1));
+    return scene;
+  };
+  const Camera camera = look_at({0, 1.6f, 2.9f}, {0, 1.4f, 0}, 1.0f);
+  const Scene poster = room(false), baked = room(true);
+  EXPECT_EQ(choose_first_light(World(poster), camera), FirstLight::lamps);
+  EXPECT_EQ(choose_first_light(World(baked), camera), FirstLight::scene)
+      << "walls whose light was baked light what stands before them";
+}
+
+TEST(FirstLight, IsWhatASmallBulbSendsAllAround) {
+  // A bulb 6 cm wide, above a floor and before a wall, in the picture
+  Scene scene =
+      scene_of({box_mesh({-3, -0.2f, -3}, {3, 0, 3}), box_mesh({-3, 0, -3.2f}, {3, 3, -3}),
+                box_mesh({-0.3f, 0, -1}, {0.3f, 1.7f, -0.6f})});
+  scene.materials.push_back(test::lambert(glm::vec3(0.0f), glm::vec3(400.0f)));
+  Mesh bulb = box_mesh({0.97f, 2.0f, -0.53f}, {1.03f, 2.06f, -0.47f});
+  bulb.material = 1;
+  test::add(scene, std::move(bulb));
+  const World world(scene);
+  const Camera camera = look_at({0, 1.6f, 5}, {0, 1.2f, 0}, 1.0f);
+  EXPECT_EQ(choose_first_light(world, camera), FirstLight::scene);
+}
+
 /// An alley that is open above, with tubes of this height [m] on its walls.
 Scene alley(float tube_height, int tubes = 8) {
   Scene scene = scene_of({box_mesh({-3, -0.2f, -20}, {3, 0, 2}), box_mesh({-3, 0, -20}, {-2, 8, 2}),

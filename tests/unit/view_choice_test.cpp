@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "first_picture/survey.h"
 #include "lambent/first_picture.h"
 #include "lambent/world.h"
 #include "support/box_scenes.h"
@@ -54,6 +55,70 @@ TEST(FirstView, FacesTheOnlyThingThatIsLit) {
     const glm::vec3 eye(view.camera.world_from_view[3]);
     const glm::vec3 ahead = -glm::vec3(view.camera.world_from_view[2]);
     EXPECT_GT(glm::dot(ahead, glm::normalize(thing + glm::vec3(0, 1, 0) - eye)), 0.8f) << side;
+  }
+}
+
+/// A case without a lid, 1 high, 1.6 wide and 1 deep, with parts within, scaled.
+Scene open_case(float scale) {
+  const auto box = [&](const glm::vec3& min, const glm::vec3& max) {
+    return test::box_mesh(scale * min, scale * max);
+  };
+  return test::scene_of({box({0, -0.1f, 0}, {1.6f, 0, 1}), box({-0.1f, -0.1f, 0}, {0, 1, 1}),
+                         box({1.6f, -0.1f, 0}, {1.7f, 1, 1}), box({0, 0, -0.1f}, {1.6f, 1, 0}),
+                         box({0, 0, 1}, {1.6f, 1, 1.1f}), box({0.3f, 0, 0.3f}, {0.5f, 0.3f, 0.6f}),
+                         box({1.0f, 0, 0.4f}, {1.3f, 0.2f, 0.7f})});
+}
+
+TEST(FirstView, LooksIntoACaseWithoutALidFromAbove) {
+  for (const float scale : {0.2f, 40.0f, 150.0f}) {  // in metres, or in millimetres
+    const Scene scene = open_case(scale);
+    const World world(scene);
+    const FirstView view = first_view(world).value();
+    EXPECT_FALSE(view.inside) << scale;
+    EXPECT_GT(view.camera.world_from_view[2].y, std::sin(glm::radians(30.0f))) << scale;
+    EXPECT_EQ(choose_first_light(world, view.camera), FirstLight::studio) << scale;
+  }
+  const Scene flat = open_case(2.7f);
+  EXPECT_TRUE(first_view(World(flat)).value().inside) << "a flat without its ceiling";
+}
+
+/// A car with panes all around, scaled.
+Scene car(float scale) {
+  Scene scene;
+  scene.materials = {test::lambert(glm::vec3(0.5f)), Material{}};
+  scene.materials[1].metallic = 0.0f;
+  scene.materials[1].roughness = 0.0f;
+  scene.materials[1].transmission = 1.0f;
+  const auto add = [&](const glm::vec3& min, const glm::vec3& max, int material = 0) {
+    Mesh box = test::box_mesh(scale * min, scale * max);
+    box.material = material;
+    test::add(scene, std::move(box));
+  };
+  add({-0.9f, 0.3f, -2}, {0.9f, 0.4f, 2});    // floor
+  add({-0.9f, 0.3f, -2}, {-0.85f, 0.9f, 2});  // doors
+  add({0.85f, 0.3f, -2}, {0.9f, 0.9f, 2});
+  add({-0.9f, 0.3f, -2.05f}, {0.9f, 0.9f, -2});    // tail
+  add({-0.9f, 0.3f, 1}, {0.9f, 0.9f, 2.2f});       // bonnet
+  add({-0.8f, 1.4f, -1.8f}, {0.8f, 1.45f, 0.8f});  // roof
+  add({-0.6f, 0.4f, -1}, {0.6f, 0.7f, -0.5f});     // seats
+  add({-0.6f, 0.7f, -1.1f}, {0.6f, 1.1f, -1});
+  add({-0.85f, 0.9f, -1.9f}, {-0.84f, 1.4f, 1}, 1);  // panes
+  add({0.84f, 0.9f, -1.9f}, {0.85f, 1.4f, 1}, 1);
+  add({-0.85f, 0.9f, 1}, {0.85f, 1.4f, 1.01f}, 1);
+  add({-0.85f, 0.9f, -1.9f}, {0.85f, 1.4f, -1.89f}, 1);
+  for (const float x : {-0.9f, 0.7f}) {
+    for (const float z : {-1.6f, 1.2f}) add({x, 0, z}, {x + 0.2f, 0.6f, z + 0.6f});
+  }
+  return scene;
+}
+
+// The cabin of a car is enclosed, but no room: more of the car is seen from outside.
+TEST(FirstView, ShowsACarFromOutside) {
+  for (const float scale : {1.0f, 1000.0f}) {
+    const Scene scene = car(scale);
+    const World world(scene);
+    ASSERT_GE(survey_space(world, world_bounds(scene)).enclosed_share, 0.25f);
+    EXPECT_FALSE(first_view(world).value().inside) << scale;
   }
 }
 
