@@ -178,7 +178,7 @@ struct UpdateRequest {
 /// How many probes are in each state. Majercik et al., JCGT 10(2), 2021, sec. 5.
 struct ProbeCounts {
   int off = 0;             ///< In solid matter: neither traced nor looked up.
-  int sleeping = 0;        ///< Near no surface: traced once, for fog and gathering.
+  int sleeping = 0;        ///< Near no surface: traced in turns, for fog and gathering.
   int newly_awake = 0;     ///< Something that moves came near; not traced since.
   int awake = 0;           ///< Light something that moves.
   int newly_vigilant = 0;  ///< Light static surfaces; not traced yet.
@@ -242,9 +242,9 @@ class IrradianceField {
 
   /// Indirect irradiance [W/m^2] at each query: light that bounced, and light from the sky; not
   /// what lights and emissive surfaces send straight. Near surfaces it follows edits within the
-  /// update that applies them; in open air, within eight. There, farther than a cell from all
-  /// surfaces that keep still and from the bounds of instances that move, it is as noisy as the
-  /// rays of a single update: probes that light no surface are traced once. Of spans of different
+  /// update that applies them; in open air, within seven. There, farther than a cell from surfaces
+  /// that keep still and from the bounds of instances that move, probes are traced in one of 16
+  /// updates, so that noise falls more slowly: to half within 60 updates. Of spans of different
   /// lengths the rest of the longer one is left alone. Queries outside all volumes are answered by
   /// the nearest probes of the last. Runs on all cores. `world` is what FieldSettings::visibility
   /// traces rays in. Visibility is by distances where it is null, or not on the device that holds

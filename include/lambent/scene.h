@@ -36,7 +36,7 @@ struct Texture {
 enum class MipWeights : std::uint8_t { equal, alpha };
 
 /// Fills `texture.levels` below the first by box-filtering in linear light. Alpha itself is always
-/// the plain mean.
+/// the plain mean. Throws std::invalid_argument where the first level lacks texels, as below.
 void build_mips(Texture& texture, MipWeights weights = MipWeights::equal);
 /// The same for a normal map, whose texels are not sRGB-encoded, of any length and, as usual,
 /// interpolated where they are seen. The vectors of MIPs are means of unit normals; surfaces that

@@ -111,7 +111,8 @@ double IrradianceField::standard_error() const {
   double squares = 0.0;
   std::size_t known = 0;
   for (const ProbeStatus& status : state_->statuses) {
-    if (status.variance_samples == 0 || status.samples <= 0.0f || !is_scheduled(status)) continue;
+    if (status.variance_samples == 0 || status.samples <= 0.0f) continue;
+    if (!is_scheduled(status) || takes_turns(status)) continue;
     squares += static_cast<double>(status.variance) / static_cast<double>(status.samples);
     ++known;
   }

@@ -34,6 +34,7 @@ struct ProbeUpdate {
   SolveSettings solve;
   uint number = 0;       ///< Number of the update, from 0.
   bool learns = false;   ///< Whether the update learns corrections of lookups.
+  bool divides = true;   ///< Whether its probes are divided among the ranks anew.
   uint dither_seed = 0;  ///< Seed of the dither with which results are stored.
 };
 

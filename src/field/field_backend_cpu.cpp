@@ -48,12 +48,12 @@ std::uint64_t update_visibility(const World& world, std::span<const int> cells, 
   return traced;
 }
 
-/// Divides an update among the ranks, and removes the probes of other ranks from its groups.
-/// Discards the surfels of probes that now belong to another rank.
+/// Divides an update among the ranks, or leaves the division as it is, and removes the probes of
+/// other ranks from its groups. Discards the surfels of probes that now belong to another rank.
 void take_own_share(ProbeUpdate& update, ProbeData& data) {
   if (data.share.alone()) return;
   assert(update.groups.size() <= 1);  // so that the probes are in ascending order
-  data.share.divide(update.probes);
+  if (update.divides) data.share.divide(update.probes);
   for (TraceGroup& group : update.groups) {
     const std::span<const int> own = data.share.own(update.probes);
     group.probes.assign(own.begin(), own.end());
@@ -200,9 +200,11 @@ class FieldBackendCpu final : public FieldBackend {
     lambent::update_probes(passes);
     ProbeUpdateResult& result = passes.result;
     // The time of most passes is in proportion to the number of rays
-    data_.share.learn_work(
-        data_.share.own(update.probes).size(),
-        static_cast<double>(result.probe_rays + result.shadow_rays + result.correction_rays));
+    if (update.divides) {
+      data_.share.learn_work(
+          data_.share.own(update.probes).size(),
+          static_cast<double>(result.probe_rays + result.shadow_rays + result.correction_rays));
+    }
     for (std::uint64_t* rays : {&result.probe_rays, &result.shadow_rays, &result.correction_rays}) {
       *rays = sum_over(data_.share.ranks(), *rays);
     }

@@ -126,8 +126,13 @@ struct IrradianceField::State {
                                std::span<const int> all, UpdateStatistics& statistics);
   /// Whether an update that traces these probes learns corrections of lookups.
   bool learns_corrections(std::span<const TraceGroup> groups) const;
-  /// Traces the scheduled probes, and blends what they receive into the store.
+  /// Traces the scheduled probes, and blends what they receive into the store: first all but those
+  /// that take turns, and then these.
   void trace(const World& world, std::vector<TraceGroup> groups, UpdateStatistics& statistics);
+  /// Traces the probes of some groups, adds what that took to the statistics, and learns the
+  /// variance of their light.
+  ProbeUpdateResult trace_groups(const World& world, std::vector<TraceGroup> groups, bool in_turn,
+                                 UpdateStatistics& statistics);
   /// Solves for the light of all traced probes, from the hits of their last rays.
   void solve_warm_up(UpdateStatistics& statistics);
   /// Replaces all light by what a file holds.

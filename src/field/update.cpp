@@ -152,26 +152,40 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
       }
     }
   }
-  const bool learns = learns_corrections(groups);
+  std::vector<TraceGroup> in_turn = split_turns(groups, statuses);
+  const ProbeUpdateResult found =
+      trace_groups(world, std::move(groups), /*in_turn=*/false, statistics);
+  statistics.solve_iterations += found.iterations;
+  statistics.residual = found.error;
+  statistics.change = found.change;
+  // Hardly any surfel reads the probes that take turns, so that their light is solved for after
+  // that of all others: surfaces are lit as without them, and the statistics tell of surfaces
+  if (!in_turn.empty()) trace_groups(world, std::move(in_turn), /*in_turn=*/true, statistics);
+}
+
+ProbeUpdateResult IrradianceField::State::trace_groups(const World& world,
+                                                       std::vector<TraceGroup> groups, bool in_turn,
+                                                       UpdateStatistics& statistics) {
+  const bool learns = !in_turn && learns_corrections(groups);
+  SolveSettings solve = solve_settings(settings);
+  if (in_turn) solve.max_iterations = 1;
   const TracedProbes traced = blend_weights_of(groups, settings, statuses);
   for (const TraceGroup& group : groups) {
     for (const int probe : group.probes) data.traces[probe].rays = group.rays;
   }
   for (const int probe : traced.probes) data.last_estimate_is_coarse[probe] = 1;
-  const ProbeUpdateResult found = backend->update_probes(
-      {world, std::move(groups), traced.probes, traced.blend_weights, solve_settings(settings),
-       static_cast<uint>(updates), learns, dither_seed()});
+  ProbeUpdateResult found = backend->update_probes(
+      {world, std::move(groups), traced.probes, traced.blend_weights, solve,
+       static_cast<uint>(updates), learns, /*divides=*/!in_turn, dither_seed()});
   statistics.probe_rays += found.probe_rays;
   statistics.shadow_rays += found.shadow_rays;
   statistics.correction_rays += found.correction_rays;
-  statistics.solve_iterations += found.iterations;
-  statistics.residual = found.error;
-  statistics.change = found.change;
   statistics.probes_traced += static_cast<int>(traced.probes.size());
   for (const PassTime& pass : found.passes) add_pass_time(statistics.passes, pass.name, pass.ms);
   update_variability(traced, found.changes,
                      {static_cast<std::uint32_t>(updates) + 1, world.revision()}, settings,
                      statuses, scheduling);
+  return found;
 }
 
 void IrradianceField::State::solve_warm_up(UpdateStatistics& statistics) {
@@ -276,10 +290,12 @@ std::vector<TraceGroup> IrradianceField::State::schedule(std::uint64_t budget,
                                                          const std::optional<vec3>& viewer_ws) {
   const auto update = static_cast<uint>(updates);
   scheduling.scheduler.refresh(data.store, statuses);
+  std::vector<int> stale = edits.stale_sleeping;
+  std::sort(stale.begin(), stale.end());
   const Schedule schedule =
-      budget == 0 ? schedule_all(data.store, volumes.roles, statuses, settings, update)
+      budget == 0 ? schedule_all(data.store, volumes.roles, statuses, settings, update, stale)
                   : scheduling.scheduler.choose(data.store, budget, update + 1, viewer_ws,
-                                                scheduling.importance);
+                                                scheduling.importance, stale);
   return group_by_rays(schedule, settings, update);
 }
 

@@ -187,7 +187,8 @@ void measure_spread(const TextureLevel& finest, TextureLevel& coarse) {
 }  // namespace
 
 void build_normal_mips(Texture& texture) {
-  assert(!texture.levels.empty() && !texture.srgb);
+  check_first_level(texture);
+  assert(!texture.srgb);
   TextureLevel& finest = texture.levels.front();
   for (std::size_t i = 3; i < finest.rgba.size(); i += 4) finest.rgba[i] = kNoSpread;
   std::vector<std::uint8_t> given = shown_normals(finest);

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 
 #include "shared/color.h"
 
@@ -111,8 +111,19 @@ void fill_uncovered(TextureLevel& level, const TextureLevel& coarser) {
 
 }  // namespace
 
+void check_first_level(const Texture& texture) {
+  if (texture.levels.empty()) throw std::invalid_argument("a texture has no levels");
+  const TextureLevel& level = texture.levels.front();
+  if (level.width < 1 || level.height < 1) {
+    throw std::invalid_argument("a texture has a level without pixels");
+  }
+  if (level.rgba.size() != static_cast<std::size_t>(level.width) * level.height * 4) {
+    throw std::invalid_argument("a texture has a level whose pixels do not fill its size");
+  }
+}
+
 void build_mips(Texture& texture, MipWeights weights) {
-  assert(!texture.levels.empty());
+  check_first_level(texture);
   texture.levels.resize(1);
   while (texture.levels.back().width > 1 || texture.levels.back().height > 1) {
     texture.levels.push_back(half_size(texture.levels.back(), texture.srgb, weights));

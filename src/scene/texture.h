@@ -15,6 +15,9 @@ static_assert(kWrapRepeat == static_cast<uint>(Wrap::repeat) &&
               kWrapMirroredRepeat == static_cast<uint>(Wrap::mirrored_repeat) &&
               kWrapClampToEdge == static_cast<uint>(Wrap::clamp_to_edge));
 
+/// Throws std::invalid_argument where a texture's first level does not have all of its texels.
+void check_first_level(const Texture& texture);
+
 /// A MIP level, and the tables that decode its bytes to linear values.
 struct DecodedLevel {
   const std::uint8_t* rgba;

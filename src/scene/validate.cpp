@@ -274,6 +274,12 @@ const char* flaw_of(const Environment& environment) {
 
 namespace {
 
+const char* flaw_of(const ProbeVolume& volume) {
+  if (!is_in_reach(volume.centre)) return "has a centre that is not within 1e9 m of the origin";
+  if (!within(volume.size, 0.0f, 2.0f * kMaxCoordinate)) return "has a size not within 0 to 2e9 m";
+  return nullptr;
+}
+
 // Fails with the first flaw of an array's entries, and its place.
 template <class T, class... Counts>
 Expected<void> check_array(const Scene& scene, const char* name, const std::vector<T>& entries,
@@ -321,6 +327,7 @@ Expected<void> validate(const Scene& scene) {
   if (result) result = check_array(scene, "lights", scene.lights);
   if (result) result = check_array(scene, "cameras", scene.cameras);
   if (result) result = validate_fog(scene);
+  if (result) result = check_array(scene, "volumes", scene.volumes);
   if (!result) return result;
   if (const char* flaw = flaw_of(scene.environment)) {
     return fail(scene.source.path, "environment", flaw);

@@ -50,7 +50,7 @@ std::vector<FieldQuery> near_viewer() {
 }
 
 /// What the processor's field holds there that has never been elsewhere. Its probes in open air are
-/// traced once, with as many rays as there may be.
+/// hardly traced twice, so that each has as many rays as there may be.
 std::vector<vec3> made_there() {
   FieldSettings settings = cascades();
   settings.rays_per_probe = 4096;

@@ -156,7 +156,7 @@ TEST_F(RecordedStart, LetsTheDeviceRestWhatTheFileHasSettled) {
   ASSERT_TRUE(field.plan().value().on_device);
   device().run([&](vulkan::Recorder& to) { field.record_rays(to.commands()); });
   const auto launch = download<uint>(field.ray_launch());
-  // The processor traces those in open air once: they are all that is left to do, in whole blocks
+  // The processor rarely traces those in open air: they are all that is left to do, in whole blocks
   const IrradianceField on_cpu = loaded(settings);
   const auto statuses = statuses_of(on_cpu);
   const float settled = 0.99f * longest_average(settings);

@@ -120,7 +120,8 @@ double difference(const IrradianceField& a, const IrradianceField& b) {
   double squares = 0.0;
   int probes = 0;
   for (std::size_t first = 0; first < light.size(); first += texels) {
-    if (!is_scheduled(statuses_of(a)[first / texels])) continue;
+    const ProbeStatus& status = statuses_of(a)[first / texels];
+    if (!is_scheduled(status) || takes_turns(status)) continue;
     const LightChange change = light_change(TileLight(light).subspan(first, texels),
                                             TileLight(other).subspan(first, texels));
     squares +=

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "shared/color.h"
 
@@ -232,6 +233,16 @@ TEST(BlendedLevel, IsNearTheLogarithmAndNeverJumps) {
     EXPECT_NEAR(level, std::max(0.0f, 0.5f * std::log2(texels)), 0.05f);
     EXPECT_LT(level - last, 0.02f);
     last = level;
+  }
+}
+
+TEST(BuildMips, RefusesTexturesWithoutAllOfTheirTexels) {
+  Texture none, few, no_size;
+  few.levels.push_back({4, 4, std::vector<std::uint8_t>(4 * 4 * 3)});
+  no_size.levels.push_back({0, 4, {}});
+  for (Texture* texture : {&none, &few, &no_size}) {
+    EXPECT_THROW(build_mips(*texture), std::invalid_argument);
+    EXPECT_THROW(build_normal_mips(*texture), std::invalid_argument);
   }
 }
 

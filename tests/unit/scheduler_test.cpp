@@ -153,5 +153,108 @@ TEST(ProbeScheduler, WhatItKeepsInMindIsWhatItWouldFindAnew) {
   }
 }
 
+/// Lets some probes of a crowd sleep that was traced in update 1, by the remainder of their index.
+Crowd crowd_with_sleepers(int of_three) {
+  Crowd crowd;
+  crowd.serve(1);
+  for (std::size_t i = 0; i < crowd.records.size(); ++i) {
+    if (static_cast<int>(i % 3) < of_three) crowd.records[i].state = ProbeState::sleeping;
+  }
+  return crowd;
+}
+
+/// Schedules updates without a budget from `first` on, every `step`th. Returns how often each probe
+/// that sleeps was traced, and adds their number in each update to `per_update`.
+std::vector<int> turns_taken(Crowd& crowd, std::uint32_t updates, std::uint32_t step,
+                             std::vector<int>& per_update, std::span<const int> stale = {}) {
+  std::vector<int> turns(crowd.records.size(), 0);
+  for (std::uint32_t update = step; update < step + updates; update += step) {
+    per_update.push_back(0);
+    const Schedule schedule =
+        schedule_all(crowd.store, crowd.roles, crowd.records, crowd.settings, update, stale);
+    for (const int probe : schedule.probes) {
+      crowd.records[probe].last_traced = update + 1;
+      if (crowd.records[probe].state != ProbeState::sleeping) continue;
+      ++turns[probe];
+      ++per_update.back();
+    }
+  }
+  return turns;
+}
+
+TEST(Schedule, TracesSleepingProbesInTurns) {
+  Crowd crowd = crowd_with_sleepers(1);
+  std::vector<int> per_update;
+  const std::vector<int> turns = turns_taken(crowd, 2 * kSleepingPeriod, 1, per_update);
+  for (std::size_t i = 0; i < turns.size(); i += 3) EXPECT_EQ(turns[i], 2);
+  const double mean = static_cast<double>(turns.size()) / 3.0 / kSleepingPeriod;
+  for (const int traced : per_update) EXPECT_NEAR(traced, mean, 0.15 * mean);
+}
+
+TEST(Schedule, LetsTurnsWaitForUpdatesThatTrace) {
+  Crowd crowd = crowd_with_sleepers(1);
+  std::vector<int> per_update;
+  const std::vector<int> turns = turns_taken(crowd, 2 * kSleepingPeriod, 2, per_update);
+  for (std::size_t i = 0; i < turns.size(); i += 3) EXPECT_EQ(turns[i], 2);
+}
+
+TEST(Schedule, LetsTurnsWaitForEditsToArrive) {
+  Crowd crowd = crowd_with_sleepers(1);
+  const std::vector<int> stale = {3, 30};
+  std::vector<int> per_update;
+  const std::vector<int> turns = turns_taken(crowd, kSleepingPeriod, 1, per_update, stale);
+  for (int i = 0; i < static_cast<int>(turns.size()); i += 3) {
+    EXPECT_EQ(turns[i], i == 3 || i == 30 ? 0 : 1);
+  }
+}
+
+TEST(Schedule, TracesFewSleepingProbesWhereMostSleep) {
+  Crowd crowd = crowd_with_sleepers(2);
+  for (std::size_t i = 2; i < crowd.records.size(); i += 6) {
+    crowd.records[i].state = ProbeState::sleeping;  // five of six
+  }
+  const auto live = static_cast<double>(crowd.records.size()) / 6.0;
+  std::vector<int> per_update;
+  turns_taken(crowd, 100, 1, per_update);
+  EXPECT_LT(*std::max_element(per_update.begin(), per_update.end()), 0.15 * live);
+  EXPECT_GT(*std::min_element(per_update.begin(), per_update.end()), 0.05 * live);
+}
+
+TEST(ProbeScheduler, GivesSleepingProbesTheirShareOfABudget) {
+  Crowd crowd = crowd_with_sleepers(1);
+  for (ProbeStatus& record : crowd.records) record.variance = record.samples = 1.0f;
+  ProbeScheduler scheduler(crowd.store.probes(), crowd.roles, crowd.settings);
+  for (std::uint32_t update = 2; update < 400; ++update) {
+    scheduler.refresh(crowd.store, crowd.records);
+    const Schedule schedule = scheduler.choose(
+        crowd.store, 70u * static_cast<std::uint64_t>(crowd.settings.rays_per_probe), update, {});
+    for (std::size_t k = 0; k < schedule.probes.size(); ++k) {
+      ProbeStatus& record = crowd.records[schedule.probes[k]];
+      record.samples +=
+          static_cast<float>(schedule.rays[k]) / static_cast<float>(crowd.settings.rays_per_probe);
+      record.last_traced = update;
+      scheduler.mark_changed(schedule.probes[k]);
+    }
+  }
+  double asleep = 0.0, live = 0.0;
+  for (const ProbeStatus& record : crowd.records) {
+    (record.state == ProbeState::sleeping ? asleep : live) += static_cast<double>(record.samples);
+  }
+  // Half as many sleep as do not
+  const double share = 2.0 * asleep / live;
+  EXPECT_NEAR(share * kSleepingPeriod, 1.0, 0.4);
+}
+
+TEST(ProbeScheduler, LetsSleepingProbesRestLonger) {
+  Crowd crowd = crowd_with_sleepers(3);
+  for (ProbeStatus& record : crowd.records) {
+    record.variance = 1e-4f;
+    record.samples = 50.0f;
+  }
+  constexpr std::uint32_t kAge = kSleepingPeriod * kMaxProbeAge;
+  EXPECT_TRUE(crowd.within(1u << 20, 1 + kAge - 1).probes.empty());
+  EXPECT_EQ(crowd.within(1u << 20, 1 + kAge).probes.size(), crowd.records.size());
+}
+
 }  // namespace
 }  // namespace lambent::scheduler_test

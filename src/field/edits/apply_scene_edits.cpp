@@ -36,8 +36,10 @@ namespace lambent {
 namespace {
 
 // An update brings one in this many of the stale sleeping probes up to date. Light in open air lags
-// behind an edit by at most this many updates, and edits in every update cost little more.
-constexpr std::size_t kSleepingSlices = 8;
+// behind an edit by at most this many updates, and edits in every update cost little more. The
+// number is odd: while edits go on, every second update traces new rays, of sleeping probes that
+// are up to date, and those that are change from one such update to the next.
+constexpr std::size_t kSleepingSlices = 7;
 
 // While the world is edited in every update, corrections forget in one of this many updates: a
 // fraction of the time in which they learn.
@@ -67,18 +69,10 @@ std::vector<float> reduce_history(const PendingEdits& pending, const WorkingIrra
   for (const int probe : pending.updated) {
     const TileLight held(&pending.before[probe * texels], texels),
         found(&light[probe * texels], texels);
-    const EstimateVariance variance =
-        estimate_variance(pending.probes.light[probe], mean_luminance(held), mean_luminance(found));
-    float& samples = statuses[probe].samples;
-    if (relative_square(held, found) < kChangedFraction * kChangedFraction) {
-      // Several changes too small to be visible add up, and so does their noise
-      samples = samples_after_ratio(samples, variance);
-      continue;
-    }
-    // The more the distribution of the light changed, the fewer samples the average counts as
-    const float kept = likeness(found, held) * pending.probes.history_shares[probe];
+    const float kept =
+        reduce_samples(held, found, pending.probes.light[probe],
+                       pending.probes.history_shares[probe], statuses[probe].samples);
     counts[probe] = kept * kept;
-    samples = samples_after_edit(samples, variance, kept);
     scheduler.mark_changed(probe);
   }
   return counts;
@@ -146,7 +140,8 @@ void IrradianceField::State::apply_edits_to_sleeping(const World& world, const E
   const WorkingIrradiance before = light_of(data.light, probes, data.tile_texels());
   WorkingIrradiance history_ratio = history_ratio_of(probes, data);
   watch.finish(field_pass::kEdits);
-  apply_edits_to_slice(world, *world.changes_since(oldest), probes, all, history_ratio, statistics);
+  const EditedProbes edited = apply_edits_to_slice(world, *world.changes_since(oldest), probes, all,
+                                                   history_ratio, statistics);
   watch.skip();
 
   // No surfel that matters reads sleeping probes, so that one iteration solves for their light
@@ -156,6 +151,14 @@ void IrradianceField::State::apply_edits_to_sleeping(const World& world, const E
   const SolveResult solved = backend->solve(probes, blend_weights, history_ratio, once);
   statistics.probes_changed += store_edited_light(probes, before, solved, history_ratio);
   statistics.solve_iterations += solved.iterations;
+  const auto texels = static_cast<std::size_t>(data.tile_texels());
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    const TileLight held(&before[k * texels], texels),
+        found(&data.light[probes[k] * texels], texels);
+    reduce_samples(held, found, edited.light[k], edited.history_shares[k],
+                   statuses[probes[k]].samples);
+    scheduling.scheduler.mark_changed(probes[k]);
+  }
   watch.finish(field_pass::kSolve);
 }
 

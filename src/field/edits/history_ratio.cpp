@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include "field/probes/tile_light.h"
-
 namespace lambent {
 /// Computes the ratio of each texel's averaged light to the probe's last estimate.
 WorkingIrradiance history_ratio_of(std::span<const int> probes, const ProbeData& data) {
@@ -44,6 +42,21 @@ std::vector<float> reduce_history_ratios(std::span<const int> probes, const Prob
     }
   }
   return shares;
+}
+
+float reduce_samples(TileLight held, TileLight found, const EditedLight& light, float history_share,
+                     float& samples) {
+  const EstimateVariance variance =
+      estimate_variance(light, mean_luminance(held), mean_luminance(found));
+  if (relative_square(held, found) < kChangedFraction * kChangedFraction) {
+    // Several changes too small to be visible add up, and so does their noise
+    samples = samples_after_ratio(samples, variance);
+    return 1.0f;
+  }
+  // The more the distribution of the light changed, the fewer samples the average counts as
+  const float kept = likeness(found, held) * history_share;
+  samples = samples_after_edit(samples, variance, kept);
+  return kept;
 }
 
 /// Stores the solution of a solve without history ratio as the probes' last estimates.

@@ -9,6 +9,7 @@
 #include "field/edits/history_ratio_math.h"
 #include "field/field_backend.h"
 #include "field/probe_data.h"
+#include "field/probes/tile_light.h"
 
 namespace lambent {
 
@@ -21,6 +22,11 @@ WorkingIrradiance history_ratio_of(std::span<const int> probes, const ProbeData&
 std::vector<float> reduce_history_ratios(std::span<const int> probes, const ProbeData& data,
                                          std::span<const EditedLight> light,
                                          WorkingIrradiance& history_ratio);
+/// Lowers the number of samples of a probe whose light an edit changed from `held` to `found`,
+/// given the direct light along its rays and its history_share(). Returns the share of its average
+/// that is kept.
+float reduce_samples(TileLight held, TileLight found, const EditedLight& light, float history_share,
+                     float& samples);
 /// Stores the light that the last rays of some probes estimate: the solution of a solve without
 /// history ratio.
 void store_last_estimates(std::span<const int> probes, const WorkingIrradiance& solution,

@@ -210,7 +210,7 @@ std::vector<int> IrradianceField::State::probes_where_edits_stopped() {
 void IrradianceField::State::inherit_history(int probe, const World& world) {
   ProbeStatus& status = statuses[probe];
   status = {};
-  // A probe in open air gets no samples, so that it is traced once in its new place
+  // A probe in open air gets no samples, so that it is traced at once and not in its turn
   if (placement.classification_inputs[probe].lights_surface) {
     status.samples = static_cast<float>(fixed_ray_directions().size()) /
                      static_cast<float>(settings.rays_per_probe);

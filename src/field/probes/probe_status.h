@@ -9,7 +9,7 @@ namespace lambent {
 /// The classification of a probe. JCGT 10(2) 2021, sec. 5.
 enum class ProbeState : std::uint8_t {
   off,             ///< Stands inside geometry: neither traced nor looked up.
-  sleeping,        ///< Near no surface: traced once, for lookups in open air.
+  sleeping,        ///< Near no surface: traced in turns, for lookups in open air.
   newly_awake,     ///< A dynamic instance came near since the last update.
   awake,           ///< Lights a dynamic instance.
   newly_vigilant,  ///< Found to light static surfaces, but not yet traced since.

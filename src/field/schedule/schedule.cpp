@@ -12,13 +12,43 @@ namespace {
 // ratio of two classes.
 constexpr float kBetweenClasses = 1.41421356f;
 
+// Sleeping probes are traced with at most this share of the rays of all others, so that light in
+// open air, which few programs read, costs surfaces little.
+constexpr float kSleepingShare = 0.1f;
+// The longest period of turns of sleeping probes: one second at 60 Hz. It limits how slowly light
+// converges in fields that have hardly any other probes, whose updates cost little.
+constexpr std::uint32_t kLongestSleepingPeriod = 64;
+
+/// 2^32 over the golden ratio. Its multiples modulo 2^32 are evenly spread, and so are those of any
+/// run of indices, or of every nth of them: Knuth, The Art of Computer Programming 3, sec. 6.4.
+constexpr std::uint32_t kGoldenStep = 2654435769u;
+
+/// Whether a probe has had a turn since it was traced last. The turn waits where an update traces
+/// nothing: while edits go on, every second one does not.
+bool has_turn(int probe, std::uint32_t last_traced, std::uint32_t update, std::uint32_t period) {
+  // Probes begin their periods in different updates, so that all updates trace about as many
+  const std::uint64_t spread = static_cast<std::uint32_t>(probe) * kGoldenStep;
+  const auto phase = static_cast<std::uint32_t>(spread * period >> 32u);
+  // Updates count from 0, but those that traced a probe last from 1
+  return (update + phase) / period != (last_traced - 1 + phase) / period;
+}
+
 }  // namespace
 
 bool is_scheduled(const ProbeStatus& status) {
-  if (status.state == ProbeState::off) return false;
-  // Fog and lookups in open air need the light of sleeping probes: these are traced once, and again
-  // where their history was reset
-  return status.state != ProbeState::sleeping || status.last_traced == 0 || status.samples == 0.0f;
+  return status.state != ProbeState::off;
+}
+
+bool takes_turns(const ProbeStatus& status) {
+  return status.state == ProbeState::sleeping && status.last_traced > 0 && status.samples > 0.0f;
+}
+
+std::uint32_t sleeping_period(int sleeping, int live) {
+  const float enough =
+      static_cast<float>(sleeping) / (kSleepingShare * static_cast<float>(std::max(live, 1)));
+  const float longest = static_cast<float>(kLongestSleepingPeriod);
+  return std::max(kSleepingPeriod,
+                  static_cast<std::uint32_t>(std::ceil(std::min(enough, longest))));
 }
 
 int ray_class_for(float rays) {
@@ -30,16 +60,28 @@ int ray_class_for(float rays) {
 
 Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles,
                       std::span<const ProbeStatus> statuses, const FieldSettings& settings,
-                      std::uint32_t update) {
+                      std::uint32_t update, std::span<const int> stale) {
   Schedule schedule;
+  const auto sleeping = std::count_if(statuses.begin(), statuses.end(), takes_turns);
+  const auto all = std::count_if(statuses.begin(), statuses.end(), is_scheduled);
+  const std::uint32_t turns =
+      sleeping_period(static_cast<int>(sleeping), static_cast<int>(all - sleeping));
   for (int volume = 0; volume < store.volumes(); ++volume) {
     const std::uint32_t period = settings.max_bounces >= 0 ? 1u : 1u << roles[volume].level;
     const int first = store.grid(volume).first;
     for (int probe = first; probe < first + probe_count(store.grid(volume)); ++probe) {
-      if (!is_scheduled(statuses[probe])) continue;
+      const ProbeStatus& status = statuses[probe];
+      if (!is_scheduled(status)) continue;
+      if (takes_turns(status)) {
+        if (has_turn(probe, status.last_traced, update, turns * period) &&
+            !std::binary_search(stale.begin(), stale.end(), probe)) {
+          schedule.probes.push_back(probe);
+        }
+        continue;
+      }
       // Spread the probes of a coarse volume over its updates
       const bool turn = (update + static_cast<std::uint32_t>(probe)) % period == 0;
-      if (turn || statuses[probe].last_traced == 0) schedule.probes.push_back(probe);
+      if (turn || status.last_traced == 0) schedule.probes.push_back(probe);
     }
   }
   schedule.rays.assign(schedule.probes.size(), settings.rays_per_probe);
@@ -61,6 +103,20 @@ std::vector<TraceGroup> group_by_rays(const Schedule& schedule, const FieldSetti
     group->probes.push_back(schedule.probes[k]);
   }
   return groups;
+}
+
+std::vector<TraceGroup> split_turns(std::vector<TraceGroup>& groups,
+                                    std::span<const ProbeStatus> statuses) {
+  std::vector<TraceGroup> in_turn;
+  for (TraceGroup& group : groups) {
+    const auto first = std::stable_partition(group.probes.begin(), group.probes.end(),
+                                             [&](int i) { return !takes_turns(statuses[i]); });
+    if (first == group.probes.end()) continue;
+    in_turn.push_back({group.rays, {first, group.probes.end()}, {}});
+    group.probes.erase(first, group.probes.end());
+  }
+  std::erase_if(groups, [](const TraceGroup& group) { return group.probes.empty(); });
+  return in_turn;
 }
 
 void learn_variance(float relative_square, float weight, ProbeStatus& status) {

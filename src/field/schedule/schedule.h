@@ -35,9 +35,22 @@ inline float longest_average(const FieldSettings& settings) {
   return 1.0f / (1.0f - settings.hysteresis);
 }
 
-/// Whether a probe takes part in the schedule. Probes that are off do not, nor do sleeping ones
-/// that have been traced and hold samples.
+/// Whether a probe takes part in the schedule: all do but those that are off.
 bool is_scheduled(const ProbeStatus& status);
+
+/// Sleeping probes are traced in turns, each once in this many updates. Fog and lookups in open air
+/// read them, but no surface does. The largest share of them among the scenes in docs/math.md (57 %
+/// of the live probes, in the Cornell box) costs 8 % more rays then.
+inline constexpr std::uint32_t kSleepingPeriod = 16;
+
+/// Whether a probe sleeps and holds light, so that it is traced in its turns only. Sleeping probes
+/// without light are traced like all others.
+bool takes_turns(const ProbeStatus& status);
+
+/// The number of updates in which each of these sleeping probes has one turn: kSleepingPeriod, or
+/// more where there are so many of them that their rays would be too large a share of an update's.
+/// `live` is the number of the other probes that are not off.
+std::uint32_t sleeping_period(int sleeping, int live);
 
 /// The probes of an update, and their numbers of rays.
 struct Schedule {
@@ -46,12 +59,14 @@ struct Schedule {
 };
 
 /// Schedules an update without a budget: with the settings' number of rays, every live probe that
-/// its volume's level includes in this update, and every live probe that has never been traced.
-/// Where bounces are counted, it schedules all live probes, because an exact number of bounces is
-/// carried through all probes at once.
+/// its volume's level includes in this update, sleeping probes in turns, and every live probe that
+/// has never been traced. Where bounces are counted, it schedules all live probes, because an exact
+/// number of bounces is carried through all probes at once. `update` counts from 0. `stale` are
+/// sleeping probes that edits have not been applied to yet, in ascending order: their turns wait,
+/// because their averages would be lost.
 Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles,
                       std::span<const ProbeStatus> statuses, const FieldSettings& settings,
-                      std::uint32_t update);
+                      std::uint32_t update, std::span<const int> stale = {});
 
 /// Chooses the probes of updates with a budget. It stores the numbers that a probe's urgency
 /// depends on, and for each block of probes the largest error reduction and age among them, so that
@@ -79,28 +94,33 @@ class ProbeScheduler {
 
   /// The most urgent probes within a budget of rays, by the statuses at the last refresh().
   /// `update` counts from 1. `importance` has one number per probe, 0 to 1; if it is empty, probes
-  /// are weighted by their distance from the viewer.
+  /// are weighted by their distance from the viewer. For `stale`, see schedule_all().
   Schedule choose(const ProbeStore& store, std::uint64_t ray_budget, std::uint32_t update,
-                  const std::optional<glm::vec3>& viewer_ws,
-                  std::span<const float> importance = {}) const;
+                  const std::optional<glm::vec3>& viewer_ws, std::span<const float> importance = {},
+                  std::span<const int> stale = {}) const;
 
  private:
   /// The numbers that a probe's urgency depends on.
   struct Entry {
-    float deviation = 0.0f;                ///< probe_deviation() of the probe and its neighbours.
-    float reduction = 0.0f;                ///< error_reduction() of the probe; 0: it has converged.
-    float reduction_per_deviation = 0.0f;  ///< error_reduction_per_deviation() of the probe.
-    /// Number of the update that traced it last; 0: none; the largest number: it is not live.
+    float deviation = 0.0f;  ///< probe_deviation() of the probe and its neighbours.
+    /// error_reduction() and error_reduction_per_deviation() of the probe, times its weight where
+    /// it sleeps; 0: it has converged.
+    float reduction = 0.0f;
+    float reduction_per_deviation = 0.0f;
+    /// Number of the update from which its age counts: of the one that traced it last, and later by
+    /// as much as sleeping probes may become older; 0: never traced; the largest number: not live.
     std::uint32_t last_traced = 0;
     ProbeState state = ProbeState::off;
+    bool takes_turns = false;
   };
   /// The numbers that an upper bound on the urgency of a block of consecutive probes depends on.
   struct Block {
     float reduction = 0.0f;                ///< The largest of its probes.
     float reduction_per_deviation = 0.0f;  ///< The largest of its probes.
     std::uint32_t last_traced = 0;         ///< The smallest of its probes.
-    float deviation_sum = 0.0f;  ///< Sum of the deviations of those that have not converged.
-    int unsettled = 0;           ///< The number of probes that have not converged.
+    /// Sum of the deviations, and number, of those near surfaces that have not converged.
+    float deviation_sum = 0.0f;
+    int unsettled = 0;
   };
 
   float view_weight(const ProbeStore& store, int probe, const std::optional<glm::vec3>& viewer_ws,
@@ -125,6 +145,11 @@ class ProbeScheduler {
 /// Groups the scheduled probes by their numbers of rays, and draws the directions of each ray set.
 std::vector<TraceGroup> group_by_rays(const Schedule& schedule, const FieldSettings& settings,
                                       uint update);
+
+/// Moves the probes that take turns out of the groups, into groups of their own, which share the
+/// ray sets. Groups that become empty are removed.
+std::vector<TraceGroup> split_turns(std::vector<TraceGroup>& groups,
+                                    std::span<const ProbeStatus> statuses);
 
 /// Learns a probe's variance from the difference between the light that its rays estimated and the
 /// light that it held: `relative_square` is the mean square of that difference, divided by the

@@ -126,7 +126,7 @@ const uint kNotScheduled = 0xFFFFFFFFu;
 /// a probe that was never traced.
 LAMBENT_FN bool waits_too_long(uint last_traced, uint update) {
   return last_traced != kNotScheduled &&
-         (last_traced == 0u || update - last_traced >= kMaxProbeAge);
+         (last_traced == 0u || update >= last_traced + kMaxProbeAge);
 }
 
 /// The weight of probes by the level of their cascade: those of level L are traced 2^-L times as

@@ -17,6 +17,14 @@ constexpr std::size_t kBlocksPerTask = 64;
 // have priority until their error is hardly visible.
 constexpr float kSleepingReduction = 0.02f;
 
+// The weight of sleeping probes in further updates. A probe's error reduction is in inverse
+// proportion to its samples, so that one of this weight gets about this share of the samples that
+// others get.
+constexpr float kSleepingWeight = 1.0f / static_cast<float>(kSleepingPeriod);
+
+// Sleeping probes become urgent by age this many updates later than others do.
+constexpr std::uint32_t kSleepingAge = (kSleepingPeriod - 1) * kMaxProbeAge;
+
 // The distance from the camera at which a probe's weight is one half [cells].
 constexpr float kHalfWeightCells = 16.0f;
 
@@ -130,6 +138,8 @@ void ProbeScheduler::refresh_status(std::span<const ProbeStatus> statuses, int p
   ++count_of(states_, entry.state);
   if (entry.last_traced == 0) --never_traced_;
   entry.last_traced = is_scheduled(status) ? status.last_traced : kNotScheduled;
+  entry.takes_turns = lambent::takes_turns(status);
+  if (entry.takes_turns) entry.last_traced += kSleepingAge;
   // Only lookups in open air read sleeping probes: they count as traced once, so that they come
   // after all other probes that have never been traced
   if (status.state == ProbeState::sleeping) entry.last_traced = std::max(entry.last_traced, 1u);
@@ -144,22 +154,30 @@ void ProbeScheduler::refresh_deviation(const ProbeStore& store,
   const ProbeStatus& own = statuses[probe];
   entry.deviation = entry.reduction = entry.reduction_per_deviation = 0.0f;
   if (entry.last_traced == kNotScheduled) return;
+  const bool sleeps = own.state == ProbeState::sleeping;
+  // Sleeping probes are traced so rarely that their variance, which is not known at first, must not
+  // decide about surfaces
   struct Neighbourhood {
     std::span<const Entry> entries;
     std::span<const ProbeStatus> statuses;
-    bool fetch_scheduled(int at) const { return entries[at].last_traced != kNotScheduled; }
+    bool sleeps;
+    bool fetch_scheduled(int at) const {
+      return entries[at].last_traced != kNotScheduled &&
+             (entries[at].state == ProbeState::sleeping) == sleeps;
+    }
     float fetch_variance(int at) const { return statuses[at].variance; }
 #include "field/schedule/neighbourhood_variance.inl.h"
-  } near = {entries_, statuses};
+  } near = {entries_, statuses, sleeps};
   entry.deviation =
       probe_deviation(own.variance, near.neighbourhood_variance(store.grid_of(probe), probe));
-  if (own.state == ProbeState::sleeping) {
+  if (sleeps && !entry.takes_turns) {
     entry.reduction = kSleepingReduction;
     return;
   }
-  entry.reduction = error_reduction(entry.deviation, own.samples, longest_);
+  const float weight = sleeps ? kSleepingWeight : 1.0f;
+  entry.reduction = weight * error_reduction(entry.deviation, own.samples, longest_);
   if (entry.reduction == 0.0f) return;
-  entry.reduction_per_deviation = error_reduction_per_deviation(own.samples);
+  entry.reduction_per_deviation = weight * error_reduction_per_deviation(own.samples);
 }
 
 void ProbeScheduler::refresh_block(std::size_t block) {
@@ -172,7 +190,7 @@ void ProbeScheduler::refresh_block(std::size_t block) {
     sum.reduction_per_deviation =
         std::max(sum.reduction_per_deviation, entry.reduction_per_deviation);
     sum.last_traced = std::min(sum.last_traced, entry.last_traced);
-    if (entry.reduction == 0.0f) continue;
+    if (entry.reduction == 0.0f || entry.state == ProbeState::sleeping) continue;
     sum.deviation_sum += entry.deviation;
     ++sum.unsettled;
   }
@@ -215,7 +233,7 @@ int ProbeScheduler::rays_of(const Entry& entry, float mean_deviation) const {
   return ray_class_for(static_cast<float>(rays_per_probe_) * share);
 }
 
-/// The mean deviation of the probes that have not converged.
+/// The mean deviation of the probes near surfaces that have not converged.
 float ProbeScheduler::mean_deviation() const {
   double deviation_sum = 0.0;
   std::int64_t unsettled = 0;
@@ -240,7 +258,8 @@ float ProbeScheduler::view_weight(const ProbeStore& store, int probe,
 
 Schedule ProbeScheduler::choose(const ProbeStore& store, std::uint64_t ray_budget,
                                 std::uint32_t update, const std::optional<glm::vec3>& viewer_ws,
-                                std::span<const float> importance) const {
+                                std::span<const float> importance,
+                                std::span<const int> stale) const {
   // Order the blocks by an upper bound on the urgency of their probes
   std::vector<Candidate> blocks;
   const float deviation = mean_deviation();
@@ -273,6 +292,7 @@ Schedule ProbeScheduler::choose(const ProbeStore& store, std::uint64_t ray_budge
       const Entry& entry = entries_[i];
       if (entry.reduction == 0.0f && !waits_too_long(entry.last_traced, update)) continue;
       const int probe = static_cast<int>(i);
+      if (entry.takes_turns && std::binary_search(stale.begin(), stale.end(), probe)) continue;
       const float weight = view_weight(store, probe, viewer_ws, importance);
       best.add({probe_urgency(
                     scheduled_reduction(entry.reduction, entry.reduction_per_deviation, deviation),

@@ -29,11 +29,15 @@ void update_variability(const TracedProbes& traced, std::span<const LightChange>
   const float longest = longest_average(settings);
   const int texels = settings.irradiance_texels * settings.irradiance_texels;
   double light_sum = 0.0;
+  std::size_t count = 0;
   for (std::size_t k = 0; k < traced.probes.size(); ++k) {
     const int probe = traced.probes[k];
     ProbeStatus& status = statuses[probe];
     const LightChange& change = changes[k];
-    light_sum += change.now;
+    if (!takes_turns(status)) {
+      light_sum += change.now;
+      ++count;
+    }
     learn_variance(
         estimate_relative_square(change, texels, traced.blend_weights[k], scheduling.mean_light),
         traced.weights[k], status);
@@ -43,13 +47,12 @@ void update_variability(const TracedProbes& traced, std::span<const LightChange>
     status.revision = in.revision;
     scheduling.scheduler.mark_changed(probe);
   }
-  if (traced.probes.empty()) return;
-  const auto count = static_cast<float>(traced.probes.size());
-  const float now = static_cast<float>(light_sum) / count;
+  if (count == 0) return;
+  const float now = static_cast<float>(light_sum) / static_cast<float>(count);
   const ProbeCounts& states = scheduling.scheduler.states();
   const int live = static_cast<int>(statuses.size()) - states.off - states.sleeping;
-  scheduling.mean_light =
-      learned_light(scheduling.mean_light, now, count, static_cast<float>(live));
+  scheduling.mean_light = learned_light(scheduling.mean_light, now, static_cast<float>(count),
+                                        static_cast<float>(live));
 }
 
 void reset_history(int probe, std::uint64_t revision, std::span<ProbeStatus> statuses,
