@@ -130,6 +130,9 @@ FrameChange change_of(const PictureView& before, const PictureView& now, const W
   change.moved = !is_same(before.camera, now.camera);
   change.edited = before.world_revision != now.world_revision;
   const auto edits = world.changes_since(before.world_revision);
+  if (edits) {
+    for (const WorldChanges& edit : *edits) change.moving += edit.moved.size();
+  }
   change.relit =
       !edits || std::ranges::any_of(*edits, &WorldChanges::relights) || before.fog != now.fog;
   return change;

@@ -46,6 +46,9 @@ void TaaSequence::advance(int width, int height, const FrameChange& change) {
   index_ = has_history ? index_ + 1 : 0;
   quiet_frames_ = has_history && !change.edited ? quiet_frames_ + 1 : 0;
   resting_frames_ = has_history && !change.moved ? resting_frames_ + 1 : 0;
+  // Things that go on moving are known to move in the previous frame, too; those that begin are not
+  const bool begins = change.moving > moving_;
+  moving_ = change.moving;
   const uint still_frames = std::min(quiet_frames_, resting_frames_);
   float deviations = kClipDeviations;
   if (quiet_frames_ >= kFramesUntilStill) deviations = kLooseClipDeviations;
@@ -56,7 +59,7 @@ void TaaSequence::advance(int width, int height, const FrameChange& change) {
             deviations,
             change.relit ? 1u : 0u,
             still_frames > 0 ? kStillHistoryFrames : kRestingHistoryFrames,
-            resting_frames_ > 0 ? 1u : 0u};
+            resting_frames_ > 0 && !begins ? 1u : 0u};
   begun_ = true;
 }
 

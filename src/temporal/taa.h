@@ -13,9 +13,10 @@ namespace lambent {
 /// How a frame differs from the previous one.
 struct FrameChange {
   bool same_size = true;
-  bool moved = false;   ///< The camera has moved.
-  bool edited = false;  ///< The world differs in any way.
-  bool relit = false;   ///< Lights, materials, emission or the sky differ.
+  bool moved = false;      ///< The camera has moved.
+  bool edited = false;     ///< The world differs in any way.
+  std::size_t moving = 0;  ///< Number of boxes around things that moved.
+  bool relit = false;      ///< Lights, materials, emission or the sky differ.
 };
 
 /// The state of a sequence of frames, for all backends.
@@ -35,6 +36,7 @@ class TaaSequence {
   uint index_ = 0;
   uint resting_frames_ = 0;  // since the camera last moved
   uint quiet_frames_ = 0;    // since the world last changed
+  std::size_t moving_ = 0;   // see FrameChange
   bool begun_ = false;
 };
 

@@ -17,7 +17,9 @@ struct TaaFrame {
   float clip_deviations;
   uint relit;         ///< 1: lights, materials or the sky differ from the previous frame.
   float most_frames;  ///< Most frames that the history of pixels at rest counts for.
-  uint camera_rests;  ///< 1: the camera has not moved since the previous frame.
+  /// 1: pixels remember their other samples, as the camera has not moved since the previous frame,
+  /// and nothing has begun to move.
+  uint keeps_others;
 };
 
 LAMBENT_DEVICE_ARRAY(TaaPixelArray, TaaPixel, 4)

@@ -169,9 +169,10 @@ LAMBENT_FN TaaPixel resolve_taa(TaaFrame frame, TaaPictureRef picture, TaaHistor
 
   bool rests = found.nearest.offset.x == 0.0f && found.nearest.offset.y == 0.0f;
   // All pixels take their samples at one place, so that some frames miss a thing thinner than a
-  // pixel in all of them. The sky rests before a camera that walks, too, but things pass before it
+  // pixel in all of them. The sky rests before a camera that walks, too, but things pass before it;
+  // and where something begins to move, the other sample may have shown it
   OtherSample other = {vec3(0.0f), kMostFramesOfOther};
-  if (rests && frame.camera_rests != 0u && moves == 0u && own.known != kObjectMotion) {
+  if (rests && frame.keeps_others != 0u && moves == 0u && own.known != kObjectMotion) {
     float across = kAcrossSlack * depth_across(frame, picture, pixel);
     other = follow_other(before, luminance(radiance), depth, across);
   }

@@ -86,6 +86,36 @@ TEST(ThinThings, OutliveLightThatFlickers) {
   EXPECT_GT(least, 1.2f * kWall);
 }
 
+// A lamp rests before a wall, so that pixels at its edges have met both, and then moves away.
+TEST(ThinThings, LeaveNoOutlineWhereTheyBeginToMove) {
+  constexpr float kLamp = 40.0f, kEdge = 3.4f, kStep = 4.0f;
+  TaaSequence sequence;
+  TemporalAntialiasing antialiasing;
+  const auto next = [&](float right, bool moves) {
+    sequence.advance(kSide, kSide, {.edited = moves, .moving = moves ? 1u : 0u});
+    const float jitter = jitter_position(sequence.index()).x;
+    Image picture(kSide, kSide, 3);
+    std::fill(picture.pixels.begin(), picture.pixels.end(), kWall);
+    std::vector<PixelMotion> motion(kSide * kSide, {glm::vec2(0.0f), kWallDepth, kWallDepth, 1u});
+    for (int pixel = 0; pixel < kSide * kSide; ++pixel) {
+      if (static_cast<float>(pixel % kSide) + jitter >= right) continue;
+      std::fill_n(&picture.pixels[3 * static_cast<std::size_t>(pixel)], 3, kLamp);
+      motion[pixel] = {glm::vec2(moves ? kStep : 0.0f, 0.0f), kPostDepth, kPostDepth,
+                       moves ? kObjectMotion : 1u};
+    }
+    antialiasing.resolve(sequence.frame(), motion, picture);
+    float brightest = 0.0f;
+    for (int x = std::max(0, static_cast<int>(right) + 1); x < kSide; ++x) {
+      brightest = std::max(brightest, picture.at(x, kSide / 2)[1]);
+    }
+    return brightest;
+  };
+  for (int i = 0; i < 7; ++i) next(kEdge, false);
+  for (int i = 1; i < 4; ++i) {
+    EXPECT_LT(next(kEdge - kStep * static_cast<float>(i), true), 1.05f * kWall) << i;
+  }
+}
+
 // The sky has no motion before a camera that walks. A post passes by many pixels a frame, and the
 // samples at its edges meet either.
 TEST(ThinThings, LeaveNoLinesInTheSkyThatTheyPass) {
