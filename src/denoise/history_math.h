@@ -58,13 +58,21 @@ LAMBENT_FN float averaged_frames(float before, float most) {
 // is below kOtherLookup, it is discarded.
 const float kSameLookup = 0.85f;
 const float kOtherLookup = 0.6f;
+// The same while lookups are shown averaged as well. The average difference is then that from their
+// average, and single lookups, of a field that follows a change, may be off by a third: to discard
+// the average where they are farthest off would show them as stains.
+const float kSameOfAveraged = 0.6f;
+const float kOtherOfAveraged = 0.35f;
 
 /// The share of its frames that an average of differences from lookups keeps. `before`: the mean
 /// luminance of the lookups in the average; `now`: the luminance of this frame's lookup [W/m^2].
-LAMBENT_FN float kept_by_lookup(float before, float now) {
+/// `shows_average`: the lookups are shown averaged.
+LAMBENT_FN float kept_by_lookup(float before, float now, bool shows_average) {
+  float same = shows_average ? kSameOfAveraged : kSameLookup;
+  float other = shows_average ? kOtherOfAveraged : kOtherLookup;
   float greater = max(before, now);
   float ratio = greater > 0.0f ? min(before, now) / greater : 1.0f;
-  return clamp((ratio - kOtherLookup) / (kSameLookup - kOtherLookup), 0.0f, 1.0f);
+  return clamp((ratio - other) / (same - other), 0.0f, 1.0f);
 }
 
 // Changes of level by less than this share are taken for noise of the field; averages of lookups

@@ -165,9 +165,12 @@ struct MovingPatch {
   }
 };
 
-/// The median over frames from the seventh on and blocks of second differences, to which a steady
-/// change adds nothing, over the light.
-double unrest_of(const std::vector<Blocks>& frames) {
+/// Second differences, to which a steady change adds nothing, over the light: of the frames from
+/// the seventh on, and all of their blocks.
+struct Unrest {
+  double median, ninth_decile;
+};
+Unrest unrest_of(const std::vector<Blocks>& frames) {
   std::vector<double> changes;
   for (std::size_t k = 6; k < frames.size(); ++k) {
     for (std::size_t i = 0; i < frames[k].size(); ++i) {
@@ -176,9 +179,8 @@ double unrest_of(const std::vector<Blocks>& frames) {
                         frames[k][i]);
     }
   }
-  const auto middle = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() / 2);
-  std::nth_element(changes.begin(), middle, changes.end());
-  return *middle;
+  std::ranges::sort(changes);
+  return {changes[changes.size() / 2], changes[changes.size() * 9 / 10]};
 }
 
 TEST(LookupLevels, KeepWallsCalmWhileLightMoves) {
@@ -191,9 +193,12 @@ TEST(LookupLevels, KeepWallsCalmWhileLightMoves) {
       if (moves) patch.move();
       frames[static_cast<std::size_t>(i)] = moves ? patch.next() : patch.frame();
     }
-    const double unrest = unrest_of(frames);
-    std::printf("moved in every frame of %d: %.4f\n", every, unrest);
-    EXPECT_LT(unrest, 0.048) << every;
+    const Unrest unrest = unrest_of(frames);
+    std::printf("moved in every frame of %d: %.4f, ninth decile %.4f\n", every, unrest.median,
+                unrest.ninth_decile);
+    EXPECT_LT(unrest.median, 0.048) << every;
+    // Where averages were discarded by noise, there were stains
+    EXPECT_LT(unrest.ninth_decile, every == 1 ? 0.115 : 0.16);
   }
 }
 

@@ -53,7 +53,8 @@ void average_gathered(const LightHistory& last, const PixelHistory& history,
   float& frames = next.gathered_frames[i] = 1.0f;
   const vec3 looked_up_before = history.level * weighted_sum(last.looked_up, taps);
   if (is_history(taps)) {
-    const float kept = kept_by_lookup(luminance(looked_up_before), luminance(looked_up));
+    const float kept =
+        kept_by_lookup(luminance(looked_up_before), luminance(looked_up), by.shows_lookups);
     frames = averaged_frames(kept * weighted_sum(last.gathered_frames, taps), by.most.of_gathers);
   }
   const vec3 difference_before = history.level * weighted_sum(last.differences, taps);
