@@ -168,6 +168,12 @@ Expected<AddedLight> add_first_light(const LightOptions& options, const Camera& 
   if (names_light(options)) return nothing_added("as asked");
   if (options.light != "auto") chosen = light_of_name(options.light);
   const FirstLight light = chosen ? *chosen : choose_first_light(world, camera);
+  if (sky_dome && options.light == "auto" && add_sun_to_sky(world, camera, scene)) {
+    if (const auto changes = world.update(); !changes) return tl::unexpected(changes.error());
+    return AddedLight{FirstLight::sun,
+                      "the dome around the scene as its sky, and a sun, as that shows a clear day "
+                      "(--light scene leaves the sun out)"};
+  }
   if (light == FirstLight::scene)
     return nothing_added(describe(light, scene, sky_dome.has_value()));
   set_first_light(light, world, camera, scene);

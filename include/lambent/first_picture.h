@@ -86,6 +86,14 @@ std::optional<Scene> take_sky_dome(Scene& scene);
 /// sky beside them. Traces a ray for each texel, up to 8.4 million. `eye_ws` [m].
 Environment sky_of_dome(const Scene& dome, const glm::vec3& eye_ws);
 
+/// Adds the sun of FirstLight::sun, set up for the camera's view, to a scene under a painted sky,
+/// such as that of sky_of_dome, and makes this sky as bright as the one of FirstLight::sun. Returns
+/// whether it did: where the scene has a map as its sky and no lights, where the map shows a clear
+/// day, blue and nowhere brighter than white, as a sun would be, and where emissive surfaces do not
+/// light the view. `scene` is the world's scene; call World::update afterwards. Traces some 10,000
+/// rays.
+bool add_sun_to_sky(const World& world, const Camera& camera, Scene& scene);
+
 /// The box that surrounds a camera, where a grid is too coarse for it, since the scene is larger
 /// than the room or the yard in which the camera stands: around the surfaces about it, or around
 /// the nearer part of what it sees from the open, a house in its grounds. None where the grid has

@@ -8,6 +8,7 @@
 #include "first_picture/daylight.h"
 #include "first_picture/lamps.h"
 #include "first_picture/seen.h"
+#include "first_picture/sky_dome.h"
 #include "first_picture/studio.h"
 #include "first_picture/subject.h"
 #include "first_picture/survey.h"
@@ -97,10 +98,13 @@ constexpr std::array kSunWays = {
 // the customary one.
 constexpr float kMinSunlit = 0.3f, kMinSunGain = 0.1f;
 
-bool has_lights_or_sky(const Scene& scene) {
-  if (scene.environment.radiance != glm::vec3(0.0f)) return true;
+bool has_lights(const Scene& scene) {
   return std::any_of(scene.lights.begin(), scene.lights.end(),
                      [](const Light& light) { return light.intensity != glm::vec3(0.0f); });
+}
+
+bool has_lights_or_sky(const Scene& scene) {
+  return scene.environment.radiance != glm::vec3(0.0f) || has_lights(scene);
 }
 
 /// Whether a scene is a piece of ground with things on it, rather than a thing.
@@ -226,28 +230,9 @@ bool lacks_a_sky(const World& world, const Camera& camera) {
   return is_outdoors(world) || has_court(world, false);
 }
 
-}  // namespace
-
-std::string_view name_of(FirstLight light) {
-  switch (light) {
-    case FirstLight::scene:
-      return "scene";
-    case FirstLight::sky:
-      return "sky";
-    case FirstLight::studio:
-      return "studio";
-    case FirstLight::sun:
-      return "sun";
-    case FirstLight::lamps:
-      return "lamps";
-  }
-  return "";
-}
-
-FirstLight choose_first_light(const World& world, const Camera& camera) {
-  if (has_lights_or_sky(world.scene())) {
-    return lacks_a_sky(world, camera) ? FirstLight::sky : FirstLight::scene;
-  }
+/// The light that suits a view, as if the scene had neither lights nor a sky:
+/// FirstLight::scene where emissive surfaces light it.
+FirstLight choose_without_lights(const World& world, const Camera& camera) {
   const SeenView view = sample_view(world, camera);
   const ViewLight light = measure_view_light(world, view);
   const bool indoors = enclosure(world, camera) >= kMinEnclosure;
@@ -270,6 +255,31 @@ FirstLight choose_first_light(const World& world, const Camera& camera) {
   return is_outdoors(world) ? FirstLight::sun : FirstLight::studio;
 }
 
+}  // namespace
+
+std::string_view name_of(FirstLight light) {
+  switch (light) {
+    case FirstLight::scene:
+      return "scene";
+    case FirstLight::sky:
+      return "sky";
+    case FirstLight::studio:
+      return "studio";
+    case FirstLight::sun:
+      return "sun";
+    case FirstLight::lamps:
+      return "lamps";
+  }
+  return "";
+}
+
+FirstLight choose_first_light(const World& world, const Camera& camera) {
+  if (has_lights_or_sky(world.scene())) {
+    return lacks_a_sky(world, camera) ? FirstLight::sky : FirstLight::scene;
+  }
+  return choose_without_lights(world, camera);
+}
+
 void adjust_first_sky(Scene& scene) {
   const float brightness = sun_ratio(scene);
   Environment& sky = scene.environment;
@@ -279,6 +289,16 @@ void adjust_first_sky(Scene& scene) {
   if (!is_ours) sky = make_day_sky(brightness);
   sky.radiance = glm::vec3(brightness);
   sky.revision = revision;
+}
+
+bool add_sun_to_sky(const World& world, const Camera& camera, Scene& scene) {
+  if (has_lights(scene)) return false;
+  const std::optional<float> luminance = clear_day_luminance(scene.environment);
+  if (!luminance || choose_without_lights(world, camera) == FirstLight::scene) return false;
+  scene.lights.push_back(make_day_sun(best_sun_way(world, sample_view(world, camera))));
+  scene.environment.radiance *= kDaySkyLuminance / *luminance;
+  ++scene.environment.revision;
+  return true;
 }
 
 void set_first_light(FirstLight light, const World& world, const Camera& camera, Scene& scene) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Skies that scenes bring as meshes.
+#include "first_picture/sky_dome.h"
+
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <optional>
 #include <utility>
@@ -42,6 +45,20 @@ constexpr float kMinSize = 0.2f;
 // Columns of the map: as many as the dome's texture has, within these. The edge of half a dome
 // needs some; more than the upper limit would take longer than the rest of a picture.
 constexpr int kMinColumns = 256, kMaxColumns = 4096;
+
+// Largest channel of colours without a unit [W/(m^2 sr)]: white, and what rounding adds to it.
+constexpr float kMaxColor = 1.01f;
+// A sky is a day's if a level white surface has at least this luminance in its light. White being
+// 1, photographs show a clear sky about as mid-grey, 0.18, and painters brighter; a blue hour has
+// less than 0.05.
+constexpr float kMinDayLuminance = 0.1f;
+// It is clear if that surface is at least so many times as blue as red. In the light of
+// make_day_sky it is 3 times as blue, in that of a blue sky half full of white clouds 1.55, and
+// in that of an overcast one 1 to 1.35.
+constexpr float kMinClearBlueness = 1.5f;
+// Of the sky below the first sine of elevation (20 degrees), the light is at least as blue as red
+// by day, with hills in it, too. That of a dawn or a dusk is red.
+constexpr float kLowSky = 0.342f, kMinLowBlueness = 1.0f;
 
 /// Whether a surface may be a sky: it emits, nothing can be seen through it, and it does not move.
 bool may_be_sky(const Scene& scene, const Instance& instance) {
@@ -112,6 +129,32 @@ int columns_for(const Scene& dome) {
 }
 
 }  // namespace
+
+std::optional<float> clear_day_luminance(const Environment& sky) {
+  // Sum what a level surface receives of the sky near the horizon, and above that
+  glm::dvec3 low(0.0), high(0.0);
+  double weights = 0.0;
+  for (int y = 0; y < sky.map.height / 2; ++y) {
+    const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(sky.map.height);
+    const float up = direction_from_latitude_longitude({0.0f, v}, 0.0f).y;
+    glm::dvec3 row(0.0);
+    for (int x = 0; x < sky.map.width; ++x) {
+      const float* texel = sky.map.at(x, y);
+      const glm::vec3 radiance = sky.radiance * glm::vec3(texel[0], texel[1], texel[2]);
+      if (std::max({radiance.x, radiance.y, radiance.z}) > kMaxColor) return std::nullopt;
+      row += radiance;
+    }
+    // The cosine, and the solid angle of the row's texels but for a constant
+    const double weight = up * std::sqrt(1.0f - up * up);
+    (up < kLowSky ? low : high) += weight * row;
+    weights += weight * sky.map.width;
+  }
+  if (weights == 0.0) return std::nullopt;
+  const glm::vec3 mean((low + high) / weights);
+  const bool is_clear = mean.z >= kMinClearBlueness * mean.x && low.z >= kMinLowBlueness * low.x;
+  if (!is_clear || luminance(mean) < kMinDayLuminance) return std::nullopt;
+  return luminance(mean);
+}
 
 std::optional<Scene> take_sky_dome(Scene& scene) {
   // Most scenes have no such surface, and bounds take long where scenes are large

@@ -55,7 +55,7 @@ TEST(SkyDomes, LightAsTheyDoAsMeshes) {
   const std::string scene = directory.file("dome.glb");
   ASSERT_TRUE(scenes::write_glb(scene_under_a_dome(), scene));
   const std::string sky = directory.file("sky.exr"), mesh = directory.file("mesh.exr");
-  const auto as_sky = test::run_program("render " + scene + kQuick + sky);
+  const auto as_sky = test::run_program("render " + scene + kQuick + sky + " --light scene");
   ASSERT_EQ(as_sky.status, 0) << as_sky.errors;
   EXPECT_THAT(as_sky.errors, HasSubstr("the dome around it as its sky"));
   // --light none leaves what surfaces emit
@@ -64,6 +64,23 @@ TEST(SkyDomes, LightAsTheyDoAsMeshes) {
   EXPECT_THAT(as_mesh.errors, Not(HasSubstr("the dome")));
   const glm::dvec3 with_sky = mean_of(sky), with_mesh = mean_of(mesh);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(with_sky[c] / with_mesh[c], 1.0, 0.02) << c;
+}
+
+TEST(SkyDomes, OfAClearDayGetASunInFirstPictures) {
+  const test::TemporaryDirectory directory;
+  const std::string scene = directory.file("dome.glb");
+  ASSERT_TRUE(scenes::write_glb(scene_under_a_dome(), scene));
+  const std::string sunny = directory.file("sunny.exr"), plain = directory.file("plain.exr");
+  const auto by_day = test::run_program("render " + scene + kQuick + sunny);
+  ASSERT_EQ(by_day.status, 0) << by_day.errors;
+  EXPECT_THAT(by_day.errors, HasSubstr("light: the dome around the scene as its sky, and a sun"));
+  const auto as_it_is = test::run_program("render " + scene + kQuick + plain + " --light scene");
+  ASSERT_EQ(as_it_is.status, 0) << as_it_is.errors;
+  EXPECT_THAT(as_it_is.errors, HasSubstr("light: the scene's, with the dome"));
+  // A clear sky's sun is yellow, and brings four fifths of the light
+  const glm::dvec3 with_sun = mean_of(sunny), without = mean_of(plain);
+  EXPECT_GT(with_sun.x, 5.0 * without.x);
+  EXPECT_GT(with_sun.x / without.x, 1.5 * with_sun.z / without.z);
 }
 
 TEST(SkyDomes, GiveWayToAnotherSky) {

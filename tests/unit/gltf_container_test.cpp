@@ -122,7 +122,11 @@ TEST(GltfUri, WhatIsNoFileBesideTheSceneIsRefused) {
   EXPECT_THAT(error("//host/a.bin"), HasSubstr("nothing is downloaded"));
   EXPECT_THAT(error("/etc/passwd"), HasSubstr("absolute"));
   EXPECT_THAT(error("%2fetc/passwd"), HasSubstr("absolute"));
-  EXPECT_THAT(error("C:\\a.bin"), HasSubstr("nothing is downloaded"));
+  EXPECT_THAT(error("a:b.bin"), HasSubstr("nothing is downloaded"));
+  for (const char* path : {"C:\\Users\\me\\a.bin", "d:/a.bin", "C%3A%5Ca.bin"}) {
+    EXPECT_THAT(error(path), HasSubstr(std::string(path) + " is an absolute path on another"));
+    EXPECT_THAT(error(path), HasSubstr("put the file beside the scene's"));
+  }
   EXPECT_THAT(error(""), HasSubstr("malformed"));
   EXPECT_THAT(error("a%00b"), HasSubstr("malformed"));
   EXPECT_THAT(error("data:,abc"), HasSubstr("not base64"));

@@ -6,9 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "first_picture/daylight.h"
 #include "lambent/first_picture.h"
 #include "lambent/world.h"
 #include "scene/latitude_longitude.h"
+#include "shared/color.h"
 #include "support/box_scenes.h"
 #include "support/hand_made.h"
 
@@ -133,6 +135,74 @@ TEST(SkyDome, OfColoursIsAsBrightAsTheSunNeeds) {
   // A clear sky's radiance is about a fifteenth of its sun's irradiance
   const Environment brighter = sky_of_dome(*take_sky_dome(sunny), vec3(0.0f));
   EXPECT_NEAR(radiance(brighter, {0, 1, 0}).x, 3.4f, 0.3f);
+}
+
+const vec3 kPaintedBlue(0.15f, 0.35f, 0.9f), kPaintedGrey(0.5f, 0.54f, 0.62f);
+
+/// The scene under an unlit dome with one colour near the horizon and another above.
+Scene under_colours(const vec3& low, const vec3& high) {
+  Scene scene = under_a_dome();
+  scene.materials[1] = {};
+  scene.materials[1].unlit = true;
+  Mesh& sphere = scene.meshes[2];
+  for (const vec3& p : sphere.positions) {
+    sphere.colors.emplace_back(p.y < 0.3f * kRadius ? low : high, 1.0f);
+  }
+  return scene;
+}
+
+/// Whether the scene, whose dome becomes its sky, gets a sun beside it.
+bool gets_a_sun(Scene& scene) {
+  const Camera camera = look_at({0, 2, 20}, {0, 2, 0}, 0.8f);
+  scene.environment = sky_of_dome(take_sky_dome(scene).value(), {0, 2, 20});
+  const World world(scene);
+  const std::size_t lights = scene.lights.size();
+  const Environment before = scene.environment;
+  const bool added = add_sun_to_sky(world, camera, scene);
+  EXPECT_EQ(scene.lights.size(), lights + (added ? 1 : 0));
+  EXPECT_EQ(scene.environment.radiance != before.radiance, added);
+  EXPECT_EQ(scene.environment.revision != before.revision, added);
+  return added;
+}
+
+TEST(SkyDome, OfAClearDayGetsASun) {
+  Scene scene = under_colours(kPaintedBlue, kPaintedBlue);
+  ASSERT_TRUE(gets_a_sun(scene));
+  EXPECT_EQ(scene.lights[0].type, Light::Type::directional);
+  EXPECT_EQ(scene.lights[0].intensity, kDaySunIrradiance);
+  const vec3 above = radiance(scene.environment, {0, 1, 0});
+  EXPECT_NEAR(luminance(above), kDaySkyLuminance, 0.02f) << "as bright as the sun needs";
+  EXPECT_NEAR(above.z / above.x, kPaintedBlue.z / kPaintedBlue.x, 0.02f) << "and as painted";
+
+  Scene hazy = under_colours({0.8f, 0.85f, 0.9f}, kPaintedBlue);
+  EXPECT_TRUE(gets_a_sun(hazy));
+  Scene emissive = under_a_dome();
+  emissive.materials[1].emission = kPaintedBlue;
+  EXPECT_TRUE(gets_a_sun(emissive)) << "without a unit, too";
+}
+
+TEST(SkyDome, OfAnotherSkyGetsNoSun) {
+  Scene night = under_colours({0.01f, 0.02f, 0.08f}, {0.005f, 0.01f, 0.05f});
+  EXPECT_FALSE(gets_a_sun(night));
+  Scene overcast = under_colours(kPaintedGrey, kPaintedGrey);
+  EXPECT_FALSE(gets_a_sun(overcast));
+  Scene dusk = under_colours({0.9f, 0.45f, 0.2f}, kPaintedBlue);
+  EXPECT_FALSE(gets_a_sun(dusk));
+  Scene measured = under_a_dome();
+  EXPECT_FALSE(gets_a_sun(measured)) << "emits more than white, so that its radiance is meant";
+}
+
+TEST(SkyDome, GetsNoSunBesideOtherLight) {
+  Scene sunny = under_colours(kPaintedBlue, kPaintedBlue);
+  sunny.lights.push_back(test::sun(vec3(10.0f), {0, -1, 0}));
+  EXPECT_FALSE(gets_a_sun(sunny));
+  // A canopy of light over the house
+  Scene lit = under_colours(kPaintedBlue, kPaintedBlue);
+  lit.materials.push_back(test::lambert(vec3(0.0f), vec3(50.0f)));
+  Mesh canopy = box_mesh({-20, 8, -20}, {20, 8.2f, 20});
+  canopy.material = 2;
+  test::add(lit, std::move(canopy));
+  EXPECT_FALSE(gets_a_sun(lit));
 }
 
 TEST(SkyDome, IsNotAnyOtherSurface) {

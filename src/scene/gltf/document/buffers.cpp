@@ -82,6 +82,14 @@ bool has_scheme(std::string_view uri) {
   return true;
 }
 
+// Whether a decoded path begins with a drive of Windows, as "C:/a.bin" does: no scheme in use has
+// one letter.
+bool starts_with_drive(std::string_view path) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  return path.size() >= 3 && is_letter(path[0]) && path[1] == ':' &&
+         (path[2] == '\\' || path[2] == '/');
+}
+
 // The file of a decoded path. Exporters on Windows write "textures\\wood.png": where there is no
 // such file, backslashes part folders.
 std::string file_of(const std::string& folder, std::string path) {
@@ -122,6 +130,11 @@ Expected<Bytes> read_uri(const Document& document, const std::string& uri,
   }
   constexpr std::size_t kShown = 80;
   const std::string shown = uri.substr(0, kShown);
+  if (starts_with_drive(path)) {
+    return document.fail_at(place, "the URI " + shown +
+                                       " is an absolute path on another machine: put the file "
+                                       "beside the scene's, and give its name alone as the URI");
+  }
   if (has_scheme(uri) || uri.rfind("//", 0) == 0) {
     return document.fail_at(place, "the URI " + shown + " is not a file: nothing is downloaded");
   }
