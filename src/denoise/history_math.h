@@ -82,6 +82,13 @@ const float kSteadyLevel = 0.03f;
 // An average that would have to change by more than this factor is of other light.
 const float kMaxLevelChange = 2.0f;
 
+/// Whether an average of lookups is of other light than this frame's, so that none of it is kept:
+/// scaled by kMaxLevelChange alone, it would lag behind. `before`, `now`: luminance of the mean of
+/// lookups around, in the average and in this frame [W/m^2].
+LAMBENT_FN bool is_other_light(float before, float now) {
+  return max(before, now) > kMaxLevelChange * (1.0f + kSteadyLevel) * min(before, now);
+}
+
 /// The factor by which an average of lookups follows a change of level. `before`, `now`: the mean
 /// of lookups around, in the average and in this frame [W/m^2].
 LAMBENT_FN float followed_level(float before, float now) {

@@ -119,19 +119,34 @@ LAMBENT_FN vec3 other_ratio(TaaPixel pixel) {
               unpack_lower_half(pixel.samples.z));
 }
 
+/// Whether samples at two depths met different surfaces. Depths of one surface may differ by
+/// `slack` [m].
+LAMBENT_FN bool is_other_surface(float depth, float depth_before, float slack) {
+  float nearer = min(depth, depth_before);
+  return max(depth, depth_before) > nearer * (1.0f + kOtherSurfaceShare) + slack;
+}
+
+/// How far depths of one surface may differ from frame to frame in a pixel [m].
+struct DepthSlack {
+  float slope;  ///< By the slope of the surface.
+  float edge;   ///< At an edge: of surfaces whose depths differ by no more, none is a thin thing.
+};
+
 /// Follows the other sample from a pixel's previous frame to one whose sample has this luminance
-/// and depth. Depths of one surface may differ by `slack` [m].
-LAMBENT_FN OtherSample follow_other(TaaPixel before, float brightness, float depth, float slack) {
-  bool met_other =
-      max(depth, before.depth) > min(depth, before.depth) * (1.0f + kOtherSurfaceShare) + slack;
-  if (!met_other) {
+/// and depth.
+LAMBENT_FN OtherSample follow_other(TaaPixel before, float brightness, float depth,
+                                    DepthSlack slack) {
+  OtherSample none = {vec3(0.0f), kMostFramesOfOther};
+  if (!is_other_surface(depth, before.depth, slack.edge)) {
+    // The other sample is known relative to the surface that the last sample met. Relative to one
+    // beyond an edge, as a lamp's to its own, it would have the square of the lamp's brightness
+    if (is_other_surface(depth, before.depth, slack.slope)) return none;
     OtherSample kept = {other_ratio(before), min(before.other_age + 1u, kMostFramesOfOther)};
     return kept;
   }
   // Beside a black sample, nothing tells how its light changes
   float most = kMostOverPresent * brightness;
   vec3 latest = latest_sample(before);
-  OtherSample none = {vec3(0.0f), kMostFramesOfOther};
   if (!(max(latest.x, max(latest.y, latest.z)) < most)) return none;
   OtherSample fresh = {latest / brightness, 0u};
   return fresh;

@@ -95,33 +95,38 @@ LAMBENT_FN float depth_at(TaaFrame frame, TaaPictureRef picture, int x, int y) {
   return fetch_motion(picture, within_picture(frame, x, y)).depth;
 }
 
-/// Change of depth that a surface may show between the positions of its samples [m].
-LAMBENT_FN float depth_slack(TaaFrame frame, TaaPictureRef picture, ivec2 pixel, float depth) {
+/// Change of depth from a pixel to the next along its surface, across and down the picture [m].
+LAMBENT_FN vec2 depth_steps(TaaFrame frame, TaaPictureRef picture, ivec2 pixel, float depth) {
   // The sky has no slope
-  if (depth == infinity()) return 0.0f;
+  if (depth == infinity()) return vec2(0.0f);
   // At the picture's edge, use the one neighbour for both sides
   int left = pixel.x > 0 ? pixel.x - 1 : pixel.x + 1;
   int right = pixel.x < frame.width - 1 ? pixel.x + 1 : pixel.x - 1;
   int above = pixel.y > 0 ? pixel.y - 1 : pixel.y + 1;
   int below = pixel.y < frame.height - 1 ? pixel.y + 1 : pixel.y - 1;
-  float across = depth_step(depth_at(frame, picture, left, pixel.y), depth,
-                            depth_at(frame, picture, right, pixel.y));
-  float down = depth_step(depth_at(frame, picture, pixel.x, above), depth,
-                          depth_at(frame, picture, pixel.x, below));
-  return kDepthSteps * (across + down);
+  return vec2(depth_step(depth_at(frame, picture, left, pixel.y), depth,
+                         depth_at(frame, picture, right, pixel.y)),
+              depth_step(depth_at(frame, picture, pixel.x, above), depth,
+                         depth_at(frame, picture, pixel.x, below)));
 }
 
-/// Difference of depth between what is two pixels away on either side [m]. It is large on slopes
-/// and at edges, but not at things about as wide as a pixel, which end between.
-LAMBENT_FN float depth_across(TaaFrame frame, TaaPictureRef picture, ivec2 pixel) {
+/// Difference of depth between what is two pixels away on either side, across and down [m]. It is
+/// large on slopes and at edges, but not at things about as wide as a pixel, which end between.
+LAMBENT_FN vec2 depths_across(TaaFrame frame, TaaPictureRef picture, ivec2 pixel) {
   float right = depth_at(frame, picture, pixel.x + 2, pixel.y);
   float left = depth_at(frame, picture, pixel.x - 2, pixel.y);
   float below = depth_at(frame, picture, pixel.x, pixel.y + 2);
   float above = depth_at(frame, picture, pixel.x, pixel.y - 2);
   // Of two infinite depths there is no difference
-  float across = right == left ? 0.0f : abs(right - left);
-  float down = below == above ? 0.0f : abs(below - above);
-  return across + down;
+  return vec2(right == left ? 0.0f : abs(right - left), below == above ? 0.0f : abs(below - above));
+}
+
+/// How far depths of one surface may differ between the positions of its samples in a pixel.
+LAMBENT_FN DepthSlack depth_slack(vec2 steps, vec2 across) {
+  // Beside an edge the steps are small, and at a thin thing what is across it is
+  vec2 slopes = min(steps, across);
+  DepthSlack slack = {kDepthSteps * (slopes.x + slopes.y), kAcrossSlack * (across.x + across.y)};
+  return slack;
 }
 
 /// The history that a pixel keeps.
@@ -164,7 +169,8 @@ LAMBENT_FN TaaPixel resolve_taa(TaaFrame frame, TaaPictureRef picture, TaaHistor
       fetch_history(history, within_picture(frame, int(floor(place.x)), int(floor(place.y))));
   // The history holds the light of a moving thing's edge where the edge was in the previous frame
   if (before.moved > moves) return fresh;
-  float slack = depth_slack(frame, picture, pixel, depth);
+  vec2 steps = depth_steps(frame, picture, pixel, depth);
+  float slack = kDepthSteps * (steps.x + steps.y);
   if (was_hidden(found.nearest.depth_before, before.farthest_depth, slack)) return fresh;
 
   bool rests = found.nearest.offset.x == 0.0f && found.nearest.offset.y == 0.0f;
@@ -173,8 +179,8 @@ LAMBENT_FN TaaPixel resolve_taa(TaaFrame frame, TaaPictureRef picture, TaaHistor
   // and where something begins to move, the other sample may have shown it
   OtherSample other = {vec3(0.0f), kMostFramesOfOther};
   if (rests && frame.keeps_others != 0u && moves == 0u && own.known != kObjectMotion) {
-    float across = kAcrossSlack * depth_across(frame, picture, pixel);
-    other = follow_other(before, luminance(radiance), depth, across);
+    DepthSlack of_surface = depth_slack(steps, depths_across(frame, picture, pixel));
+    other = follow_other(before, luminance(radiance), depth, of_surface);
   }
   bool mixed = other.age < kMostFramesOfOther;
   vec3 now = compress_radiance(radiance, found.mean);

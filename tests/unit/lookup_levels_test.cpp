@@ -85,6 +85,15 @@ TEST(LookupLevels, FollowLargeChangesAlone) {
   EXPECT_EQ(followed_level(0.0f, 0.0f), 1.0f);
 }
 
+TEST(LookupLevels, KeepNothingOfOtherLight) {
+  const TwoWalls walls(64, 36);
+  for (const float change : {0.3f, 0.45f, 2.2f, 3.0f}) {
+    const LookupLevels levels(walls.view, walls.light(1.0f, 1.0f), walls.light(change, 1.0f));
+    EXPECT_EQ(levels.followed(walls.view, walls.pixel(10, 10), kTolerance), vec3(0.0f)) << change;
+    EXPECT_EQ(levels.followed(walls.view, walls.pixel(50, 10), kTolerance), vec3(1.0f)) << change;
+  }
+}
+
 TEST(LookupLevels, AreOfPixelsThatHaveAHistory) {
   // Half of what the left part showed before is unknown, as where the camera turns
   const TwoWalls walls(64, 36);
@@ -165,6 +174,10 @@ struct MovingPatch {
   }
 };
 
+double total(const Blocks& blocks) {
+  return std::accumulate(blocks.begin(), blocks.end(), 0.0);
+}
+
 /// Second differences, to which a steady change adds nothing, over the light: of the frames from
 /// the seventh on, and all of their blocks.
 struct Unrest {
@@ -212,10 +225,33 @@ TEST(LookupLevels, FollowLightThatFades) {
   }
   Renderer fresh(patch.world, {.field = &patch.field});
   const Blocks now = patch.blocks_of(fresh);
-  const double ratio = std::accumulate(shown.begin(), shown.end(), 0.0) /
-                       std::accumulate(now.begin(), now.end(), 0.0);
+  const double ratio = total(shown) / total(now);
   std::printf("shown over what a first frame shows: %.4f\n", ratio);
   EXPECT_NEAR(ratio, 1.0, 0.06);
+}
+
+/// What is shown of light that jumps by a factor, over what a first frame shows.
+double shown_after_jump(float change) {
+  MovingPatch patch;
+  patch.move();
+  for (int i = 0; i < 4; ++i) {
+    patch.scene.lights[0].intensity *= 1.01f;
+    patch.next();
+  }
+  patch.scene.lights[0].intensity *= change;
+  const Blocks shown = patch.next();
+  Renderer fresh(patch.world, {.field = &patch.field});
+  return total(shown) / total(patch.blocks_of(fresh));
+}
+
+// A candle flickers by more than averages can follow. Jumps by a factor of ten end them at each
+// pixel, so that the same rays are seen alone: both differ by noise of the field, up to 3 %.
+TEST(LookupLevels, FollowLightThatJumps) {
+  for (const vec2 jumps : {vec2(0.43f, 0.1f), vec2(2.3f, 10.0f)}) {
+    const double shown = shown_after_jump(jumps.x), alone = shown_after_jump(jumps.y);
+    std::printf("light times %.2f: %.4f, without averages %.4f\n", jumps.x, shown, alone);
+    EXPECT_NEAR(shown / alone, 1.0, 0.05) << jumps.x;
+  }
 }
 
 }  // namespace

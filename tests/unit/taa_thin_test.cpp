@@ -116,6 +116,42 @@ TEST(ThinThings, LeaveNoOutlineWhereTheyBeginToMove) {
   }
 }
 
+// Samples of a lamp about two pixels wide meet it or the wall behind, and what is around them may
+// look like an edge in the frame that comes back to it. Once it is dimmed, pixels that show it must
+// not keep their old light.
+TEST(ThinThings, DimWithTheirLightBesideEdges) {
+  constexpr float kLamp = 100.0f, kDimmed = 0.2f;
+  // Clipping leaves up to mean + kClipDeviations standard deviations: of any share of lit pixels in
+  // the neighbourhood at most 1.3 times the lamp
+  constexpr float kMostOverLamp = 1.31f;
+  for (int frames = 8; frames < 40; ++frames) {
+    TaaSequence sequence;
+    TemporalAntialiasing antialiasing;
+    float brightest = 0.0f;
+    for (int i = 0; i <= frames; ++i) {
+      const float light = i == frames ? kDimmed : 1.0f;
+      sequence.advance(kSide, kSide, {.edited = true, .relit = true});
+      const glm::vec2 jitter = jitter_position(sequence.index());
+      Image picture(kSide, kSide, 3);
+      std::fill(picture.pixels.begin(), picture.pixels.end(), light * kWall);
+      std::vector<PixelMotion> motion(kSide * kSide, {glm::vec2(0.0f), kWallDepth, kWallDepth, 1u});
+      for (int pixel = 0; pixel < kSide * kSide; ++pixel) {
+        const glm::vec2 place = glm::vec2(pixel % kSide, pixel / kSide) + jitter;
+        if (place.x < 3.3f || place.x > 5.1f || place.y < 2.4f || place.y > 5.6f) continue;
+        std::fill_n(&picture.pixels[3 * static_cast<std::size_t>(pixel)], 3, light * kLamp);
+        motion[pixel].depth = motion[pixel].depth_before = kPostDepth;
+      }
+      antialiasing.resolve(sequence.frame(), motion, picture);
+      brightest = 0.0f;
+      for (int pixel = 0; pixel < kSide * kSide; ++pixel) {
+        if (motion[pixel].depth != kPostDepth) continue;
+        brightest = std::max(brightest, picture.pixels[3 * static_cast<std::size_t>(pixel)]);
+      }
+    }
+    EXPECT_LT(brightest, kMostOverLamp * kDimmed * kLamp) << frames;
+  }
+}
+
 // The sky has no motion before a camera that walks. A post passes by many pixels a frame, and the
 // samples at its edges meet either.
 TEST(ThinThings, LeaveNoLinesInTheSkyThatTheyPass) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "shared/color.h"
+
 namespace lambent {
 namespace {
 
@@ -44,7 +46,8 @@ LookupLevels::LookupLevels(const DenoiseView& view, std::span<const vec3> before
       denoiser.filter(small, {.light = now_here}, geometric_denoising(), level_now);
   assert(done);  // sizes are the view's
   for (std::size_t i = 0; i < depths_.size(); ++i) {
-    vec3& factor = factors_.emplace_back();
+    vec3& factor = factors_.emplace_back(0.0f);
+    if (is_other_light(luminance(level_before[i]), luminance(level_now[i]))) continue;
     for (int c = 0; c < 3; ++c) factor[c] = followed_level(level_before[i][c], level_now[i][c]);
   }
 }

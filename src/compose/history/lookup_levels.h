@@ -29,7 +29,8 @@ class LookupLevels {
 
   /// The factor that brings a pixel's average to the level of this frame, see followed_level(); in
   /// each channel, as light may have come to be reflected by surfaces of another colour. 1 where no
-  /// pixel around it that shows its surface has a history. `tolerance`: of its surface's depth
+  /// pixel around it that shows its surface has a history, and 0 where the average is of other
+  /// light, see is_other_light(). `tolerance`: of its surface's depth
   /// between pixels that are pixels_apart() apart [m], see depth_tolerance().
   vec3 followed(const DenoiseView& view, std::size_t pixel, float tolerance) const;
 
