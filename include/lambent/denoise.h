@@ -112,6 +112,9 @@ DenoiseSettings geometric_denoising();
 /// are so rare that their light is best spread beyond the lobes that found it.
 DenoiseSettings excess_denoising();
 
+/// geometric_denoising() for light that lobes reflect on surfaces that mirrors show.
+DenoiseSettings mirrored_denoising();
+
 /// geometric_denoising() for light that lobes reflect, with a variance, of one of `samples`
 /// pictures whose mean is shown, >= 1. Of what is near, light is averaged as far as it differs by
 /// no more than the noise of that mean.

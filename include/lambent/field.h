@@ -210,8 +210,10 @@ struct UpdateStatistics {
   int probes_stale = 0;           ///< Not yet up to date with edits after the update.
   ProbeCounts states;             ///< After the update.
   int solve_iterations = 0;       ///< Iterations of the multi-bounce solve.
-  double residual = 0.0;          ///< Estimated relative error this update stopped at.
-  double change = 0.0;            ///< Of the stored light, root mean square over root mean square.
+  /// Estimated relative error this update stopped at; of all probes but those in turns, see
+  /// ProbeCounts::sleeping.
+  double residual = 0.0;
+  double change = 0.0;  ///< Of those probes' stored light, root mean square over root mean square.
 };
 
 /// Volumes of irradiance probes with visibility, and the light that bounces between them.
@@ -244,9 +246,10 @@ class IrradianceField {
   /// what lights and emissive surfaces send straight. Near surfaces it follows edits within the
   /// update that applies them; in open air, within seven. There, farther than a cell from surfaces
   /// that keep still and from the bounds of instances that move, probes are traced in one of 16
-  /// updates, so that noise falls more slowly: to half within 60 updates. Of spans of different
-  /// lengths the rest of the longer one is left alone. Queries outside all volumes are answered by
-  /// the nearest probes of the last. Runs on all cores. `world` is what FieldSettings::visibility
+  /// updates, so that noise falls more slowly: to half within 60 updates. Where few probes are near
+  /// surfaces, it is one of up to 64; in coarse volumes of cascades, a share of that. Of spans of
+  /// different lengths the rest of the longer one is left alone. Queries outside all volumes are
+  /// answered by the nearest probes of the last. Runs on all cores. `world` is what FieldSettings::visibility
   /// traces rays in. Visibility is by distances where it is null, or not on the device that holds
   /// the field.
   void irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> result,

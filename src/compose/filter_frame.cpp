@@ -49,7 +49,7 @@ void filter_mirrored(DenoiseView view, FilteredPixels& pixels) {
   view.positions_ws = pixels.mirrored_positions_ws;
   view.depths = pixels.mirrored_depths;
   view.normals_ws = pixels.mirrored.normals_ws;
-  filter_lobes(view, geometric_denoising(), pixels, pixels.mirrored);
+  filter_lobes(view, mirrored_denoising(), pixels, pixels.mirrored);
 }
 
 /// Filters the light of emitters on the surfaces that mirrors show.

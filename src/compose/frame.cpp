@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The order of a frame's passes, for all backends, and the state of a renderer between frames.
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -123,15 +124,16 @@ std::optional<FrameBefore> frame_before(const PictureView& before, const World& 
 }
 
 /// How a picture differs from the previous one. Where changes are too old to be on record, light is
-/// taken to have changed.
+/// taken to have changed, and all to have moved.
 FrameChange change_of(const PictureView& before, const PictureView& now, const World& world) {
   FrameChange change;
   change.same_size = before.width == now.width && before.height == now.height;
   change.moved = !is_same(before.camera, now.camera);
   change.edited = before.world_revision != now.world_revision;
   const auto edits = world.changes_since(before.world_revision);
-  if (edits) {
-    for (const WorldChanges& edit : *edits) change.moving += edit.moved.size();
+  if (!edits) change.moving = std::numeric_limits<std::size_t>::max();
+  for (const WorldChanges& edit : edits.value_or(std::vector<WorldChanges>{})) {
+    change.moving = std::max(change.moving, edit.moved.size());
   }
   change.relit =
       !edits || std::ranges::any_of(*edits, &WorldChanges::relights) || before.fog != now.fog;

@@ -191,7 +191,7 @@ void FramePassesVulkan::denoise_coats(const DenoiseViewOnDevice& view) {
       of_images.normals_ws = r.mirrored_normals_ws;
       of_images.depths = r.mirrored_depths;
       of_images.lobes = r.mirrored_lobes;
-      memory_.denoiser.record(to, of_images, {r.mirrored}, geometric_denoising(),
+      memory_.denoiser.record(to, of_images, {r.mirrored}, mirrored_denoising(),
                               r.filtered_mirrored);
     }
     if ((mirrored_light_kept() & kKeepsMirroredEmitters) != 0u) {

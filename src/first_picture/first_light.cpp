@@ -29,8 +29,8 @@ constexpr float kMinEmissionRatio = 0.1f;
 // garden, differ from signs in that they light most of a view, at least the first share of it, and
 // are brighter than what glTF files emit without KHR_materials_emissive_strength [W/(m^2 sr)].
 // Beside them, the view may be darker: a thousandth is still visible where they are white. It may
-// be darker still where it is lit evenly, as by a bulb, which is small: a quarter of the view, at
-// most, is more than three stops darker than its brightest tenth.
+// be darker still where it is lit evenly, as by a bulb, which is small: at most a quarter of what
+// is lit is more than three stops darker than the brightest tenth of that.
 constexpr float kMinLitByLamps = 0.8f, kMaxSignRadiance = 1.0f, kMinLampRatio = 0.001f;
 constexpr float kMinEvenness = 1.0f / 8.0f;
 // A court or a street under open sky is lit by its own emitters only if they light this share of
@@ -107,7 +107,8 @@ bool has_lights_or_sky(const Scene& scene) {
   return scene.environment.radiance != glm::vec3(0.0f) || has_lights(scene);
 }
 
-/// Whether a scene is a piece of ground with things on it, rather than a thing.
+/// Whether a scene is a piece of ground with things on it, rather than a thing. The bottom of a
+/// housing is no ground.
 bool has_ground(const World& world, const Bounds& bounds) {
   const glm::vec3 size = bounds.max - bounds.min;
   if (size.y < kFlatShare * std::min(size.x, size.z)) return true;
@@ -144,7 +145,8 @@ bool has_ground(const World& world, const Bounds& bounds) {
                       heights[highest] - band - bounds.min.y > kMinPlinthShare * size.y;
   const auto count = static_cast<float>(heights.size());
   return !plinth && static_cast<float>(most) >= kMinGround * count &&
-         static_cast<float>(above) >= kMinThings * count;
+         static_cast<float>(above) >= kMinThings * count &&
+         !is_open_housing(survey_space(world, bounds));
 }
 
 /// Whether the sky is visible above much of the scene's enclosed air, through glass or not;
@@ -200,8 +202,7 @@ bool is_open_in_front(const World& world, const Bounds& subject) {
          kMaxSweepAround * kRaysToSweep;
 }
 
-/// Whether a scene stands on a ground, rather than being an object that is shown by itself, such as
-/// a case, whose bottom is no ground.
+/// Whether a scene stands on a ground, rather than being an object that is shown by itself.
 bool is_outdoors(const World& world) {
   const Subject subject = find_subject(world);
   if (subject.bounds.empty()) return false;
@@ -210,7 +211,7 @@ bool is_outdoors(const World& world) {
                         diagonal(subject.site) < kMaxSweep &&
                         is_open_in_front(world, subject.bounds);
   if (dwarfed) return !on_sweep;
-  return has_ground(world, subject.bounds) && !is_open_housing(survey_space(world, subject.bounds));
+  return has_ground(world, subject.bounds);
 }
 
 /// Whether suns shine out of a void that the camera sees past things on a ground, over a court, or

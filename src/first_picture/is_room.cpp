@@ -5,6 +5,7 @@
 #include "first_picture/subject.h"
 #include "first_picture/survey.h"
 #include "raytracing/trace_rays.h"
+#include "raytracing/world_access.h"
 #include "shared/constants.h"
 #include "shared/rays.h"
 
@@ -71,12 +72,12 @@ bool is_room(const World& world, const Subject& subject, const SpaceSurvey& surv
   std::vector<bool> hides(world.scene().instances.size(), false);
   for (const std::uint32_t instance : subject.instances) hides[instance] = true;
   const std::vector<Hit> hits = trace(world, rays);
+  std::vector<glm::vec3> through(rays.size(), glm::vec3(0.0f));
+  if (tracer_of(world).dims_shadows()) tracer_of(world).transmittances(rays, through);
   std::vector<char> shown(points.size(), 0);
   for (std::size_t r = 0; r < rays.size(); ++r) {
-    char& is_shown = shown[point_of_ray[r]];
-    if (is_shown != 0) continue;
     const bool free = hits[r].missed() || !hides[hits[r].instance];
-    is_shown = free || leads_to_sky(world, rays[r]) ? 1 : 0;
+    if (free || is_clear(through[r])) shown[point_of_ray[r]] = 1;
   }
   const auto count = static_cast<float>(std::count(shown.begin(), shown.end(), 1));
   const float shown_share = count / static_cast<float>(points.size());

@@ -144,15 +144,11 @@ SeenView sample_view(const World& world, const Camera& camera) {
   const std::vector<Ray> rays = frame_rays(camera, kAspect, kAcross, kUp);
   const std::vector<Hit> hits = trace(world, rays);
   SeenView view;
-  std::size_t unlit = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (hits[i].missed()) continue;
     const Surface surface = surface_at(world.scene(), rays[i], hits[i]);
-    view.points.push_back({lit_point(surface), largest(surface.emission)});
-    unlit += is_unlit(material_of(world.scene(), hits[i].instance)) ? 1 : 0;
-  }
-  if (unlit > 0) {
-    view.unlit_share = static_cast<float>(unlit) / static_cast<float>(view.points.size());
+    view.points.push_back({lit_point(surface), largest(surface.emission),
+                           is_unlit(material_of(world.scene(), hits[i].instance))});
   }
   ShadowRays towards_sky;
   towards_sky.trace(tracer_of(world), rays);
@@ -166,7 +162,8 @@ SeenView sample_view(const World& world, const Camera& camera) {
 
 ViewLight measure_view_light(const World& world, const SeenView& view) {
   const std::size_t count = view.points.size();
-  const CountedEmitters by{world, view.unlit_share >= kMostlyUnlit};
+  const auto unlit = static_cast<float>(std::ranges::count(view.points, true, &SeenPoint::unlit));
+  const CountedEmitters by{world, unlit >= kMostlyUnlit * static_cast<float>(count)};
   std::vector<PointLight> lights(count);
   parallel_chunks(count, 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -176,15 +173,17 @@ ViewLight measure_view_light(const World& world, const SeenView& view) {
   });
 
   std::vector<float> lit;
-  std::size_t reflecting = 0;
+  std::size_t reflecting = 0, emitting = 0;
   float emitted = 0.0f;
   int open = 0;
   ViewLight light;
   for (std::size_t i = 0; i < count; ++i) {
     open += lights[i].escaped;
     light.brightest_emitter = std::max(light.brightest_emitter, lights[i].brightest_emitter);
+    if (view.points[i].unlit && !by.unlit) continue;
     if (view.points[i].emission > 0.0f) {
       emitted += view.points[i].emission;
+      ++emitting;
       continue;
     }
     ++reflecting;
@@ -199,7 +198,7 @@ ViewLight measure_view_light(const World& world, const SeenView& view) {
     light.evenness = lit[lit.size() / 4] / ninth_decile;
     const float least = middle * kLitShare;
     const auto bright = std::count_if(lit.begin(), lit.end(), [&](float e) { return e >= least; });
-    if (emitted > 0.0f) light.emitter_radiance = emitted / static_cast<float>(count - reflecting);
+    if (emitted > 0.0f) light.emitter_radiance = emitted / static_cast<float>(emitting);
     light.emission_ratio =
         emitted > 0.0f ? middle * kInvPi / light.emitter_radiance : kInfiniteDistance;
     light.lit_by_emission = static_cast<float>(bright) / static_cast<float>(reflecting);

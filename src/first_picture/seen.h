@@ -16,12 +16,12 @@ namespace lambent {
 struct SeenPoint {
   LitPoint point;
   float emission = 0.0f;  ///< Largest channel of its emitted radiance [W/(m^2 sr)].
+  bool unlit = false;     ///< Its material is.
 };
 
 /// What the camera sees, sampled on a coarse grid over a picture of 16:9.
 struct SeenView {
   std::vector<SeenPoint> points;  ///< Samples that show a surface.
-  float unlit_share = 0.0f;       ///< Share of these that shows an unlit material.
   float sky_share = 0.0f;         ///< Share of the samples that show the sky, also through glass.
 };
 /// Samples what the camera sees.

@@ -35,12 +35,13 @@ struct Middle {
 Middle find_middle(const Scene& scene, std::span<const Bounds> boxes,
                    std::vector<std::uint32_t> instances);
 
-/// Whether a scene is a shell that is open above, of another height than rooms for people have: a
-/// case without its lid, or a model of a flat.
+/// Whether a scene is a housing: a shell that is open above, of another height than rooms for
+/// people have, such as a case without its lid or a flat in millimetres.
 bool is_open_housing(const SpaceSurvey& survey);
 
 /// Whether a scene is a shell around most of its contents: by the share of its box that is enclosed
-/// air, and by the share of its surfaces whose front is visible from outside.
+/// air, and by the share of its surfaces whose front is visible from outside, of which a scene with
+/// another height than rooms for people may show less. Housings are no rooms.
 bool is_room(const World& world, const Subject& subject, const SpaceSurvey& survey);
 inline bool is_room(const World& world, const Subject& subject) {
   return !subject.bounds.empty() && is_room(world, subject, survey_space(world, subject.bounds));

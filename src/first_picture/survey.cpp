@@ -156,7 +156,7 @@ bool leads_to_sky(const World& world, const Ray& ray) {
   if (!tracer_of(world).dims_shadows()) return false;
   glm::vec3 share;
   tracer_of(world).transmittances({&ray, 1}, {&share, 1});
-  return std::max({share.r, share.g, share.b}) >= kMinClearTransmittance;
+  return is_clear(share);
 }
 
 float median_height(std::span<const OpenPlace> places) {

@@ -2,6 +2,7 @@
 // Surveys an unknown scene with rays: where its surfaces are, and its open space.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -33,6 +34,11 @@ std::vector<Ray> rays_around(const glm::vec3& place_ws, int count, float reach =
 
 // The sky is visible through surfaces that transmit at least this share of its light.
 inline constexpr float kMinClearTransmittance = 0.1f;
+
+/// Whether what transmits this share of the light lets the sky be seen.
+inline bool is_clear(const glm::vec3& transmittance) {
+  return std::max({transmittance.r, transmittance.g, transmittance.b}) >= kMinClearTransmittance;
+}
 
 /// Whether the sky is visible along a ray that hits something: through glass, or what is blended.
 bool leads_to_sky(const World& world, const Ray& ray);

@@ -46,9 +46,14 @@ void TaaSequence::advance(int width, int height, const FrameChange& change) {
   index_ = has_history ? index_ + 1 : 0;
   quiet_frames_ = has_history && !change.edited ? quiet_frames_ + 1 : 0;
   resting_frames_ = has_history && !change.moved ? resting_frames_ + 1 : 0;
-  // Things that go on moving are known to move in the previous frame, too; those that begin are not
-  const bool begins = change.moving > moving_;
-  moving_ = change.moving;
+  // Things that go on moving are known to move in the previous frame, too; those that begin are
+  // not. Worlds may be updated in every second frame alone
+  const bool begins = change.moving > most_moving_;
+  ++frames_since_most_;
+  if (change.moving >= most_moving_ || frames_since_most_ > kFramesUntilStill) {
+    most_moving_ = change.moving;
+    frames_since_most_ = 0;
+  }
   const uint still_frames = std::min(quiet_frames_, resting_frames_);
   float deviations = kClipDeviations;
   if (quiet_frames_ >= kFramesUntilStill) deviations = kLooseClipDeviations;

@@ -15,7 +15,7 @@ struct FrameChange {
   bool same_size = true;
   bool moved = false;      ///< The camera has moved.
   bool edited = false;     ///< The world differs in any way.
-  std::size_t moving = 0;  ///< Number of boxes around things that moved.
+  std::size_t moving = 0;  ///< Largest number of boxes around what moved in an update of the world.
   bool relit = false;      ///< Lights, materials, emission or the sky differ.
 };
 
@@ -36,7 +36,9 @@ class TaaSequence {
   uint index_ = 0;
   uint resting_frames_ = 0;  // since the camera last moved
   uint quiet_frames_ = 0;    // since the world last changed
-  std::size_t moving_ = 0;   // see FrameChange
+  // The most boxes that moved in one of the last frames, and the number of frames since
+  std::size_t most_moving_ = 0;
+  uint frames_since_most_ = 0;
   bool begun_ = false;
 };
 

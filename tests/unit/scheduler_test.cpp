@@ -220,6 +220,29 @@ TEST(Schedule, TracesFewSleepingProbesWhereMostSleep) {
   EXPECT_GT(*std::min_element(per_update.begin(), per_update.end()), 0.05 * live);
 }
 
+// As things move, probes fall asleep and awake, so that the period of turns changes all the time.
+TEST(Schedule, TracesFewSleepingProbesWhileTheirNumberChanges) {
+  Crowd crowd = crowd_with_sleepers(2);
+  std::vector<int> traced(crowd.records.size(), 0);
+  for (std::uint32_t update = 1; update < 200; ++update) {
+    for (std::size_t i = 2; i < crowd.records.size(); i += 6) {
+      crowd.records[i].state = update / 8 % 2 == 0 ? ProbeState::sleeping : ProbeState::vigilant;
+    }
+    const auto asleep =
+        std::ranges::count(crowd.records, ProbeState::sleeping, &ProbeStatus::state);
+    int turns = 0;
+    for (const int probe :
+         schedule_all(crowd.store, crowd.roles, crowd.records, crowd.settings, update, {}).probes) {
+      crowd.records[probe].last_traced = update + 1;
+      if (crowd.records[probe].state != ProbeState::sleeping) continue;
+      ++turns;
+      ++traced[probe];
+    }
+    EXPECT_LT(turns, 0.15 * static_cast<double>(asleep)) << update;
+  }
+  for (std::size_t i = 0; i < traced.size(); i += 3) EXPECT_GE(traced[i], 2) << i;
+}
+
 TEST(ProbeScheduler, GivesSleepingProbesTheirShareOfABudget) {
   Crowd crowd = crowd_with_sleepers(1);
   for (ProbeStatus& record : crowd.records) record.variance = record.samples = 1.0f;

@@ -171,6 +171,20 @@ TEST(Taa, LeavesNoGhostsBehindABrightBarThatMoves) {
   }
 }
 
+TEST(Taa, LeavesNoOutlineOfABarThatBeginsToMove) {
+  Scene scene = striped_wall(0);
+  put_bar(scene, -1.0f);
+  World world(scene);
+  Renderer renderer(world);
+  for (int i = 0; i < 7; ++i) picture_of(renderer, camera_at(0.0f), frame_settings(true));
+  for (int i = 1; i < 4; ++i) {
+    put_bar(scene, -1.0f + 0.8f * static_cast<float>(i));
+    ASSERT_TRUE(world.update());
+    const Image picture = picture_of(renderer, camera_at(0.0f), frame_settings(true));
+    EXPECT_LT(ghost(picture, truth_of(world, camera_at(0.0f), 25)), 0.02f) << i;
+  }
+}
+
 TEST(Taa, LeavesNoGhostsInFrontOfStripes) {
   // The same twice, once with the bar out of sight: what differs where it no longer is, it has left
   const auto pictures_from = [](float first_x) {
@@ -366,29 +380,6 @@ TEST(TemporalAntialiasing, DoesNotSpreadWhatIsNoNumber) {
     for (const float value : picture.pixels) ASSERT_TRUE(value >= 0.0f && value <= 0.6f) << frame;
     EXPECT_NEAR(picture.at(0, 4)[1], 0.5f, 1e-3f);
   }
-}
-
-TEST(TaaSequence, HoldsTheHistoryLessTheLongerNothingMoves) {
-  TaaSequence sequence;
-  sequence.advance(8, 8, {});
-  EXPECT_EQ(sequence.frame().has_history, 0u);
-  for (unsigned i = 1; i <= kFramesUntilStill; ++i) {
-    EXPECT_EQ(sequence.frame().clip_deviations, kClipDeviations);
-    sequence.advance(8, 8, {});
-    EXPECT_EQ(sequence.index(), i);
-  }
-  EXPECT_EQ(sequence.frame().clip_deviations, 0.0f);
-  EXPECT_EQ(sequence.frame().most_frames, kStillHistoryFrames);
-  sequence.advance(8, 8, {.moved = true});
-  EXPECT_EQ(sequence.frame().clip_deviations, kLooseClipDeviations);
-  EXPECT_EQ(sequence.frame().most_frames, kRestingHistoryFrames);
-  EXPECT_EQ(sequence.frame().has_history, 1u);
-  sequence.advance(8, 8, {.edited = true});
-  EXPECT_EQ(sequence.frame().clip_deviations, kClipDeviations);
-  EXPECT_EQ(sequence.frame().most_frames, kRestingHistoryFrames);
-  sequence.advance(8, 8, {.same_size = false});
-  EXPECT_EQ(sequence.frame().has_history, 0u);
-  EXPECT_EQ(sequence.index(), 0u);
 }
 
 }  // namespace

@@ -12,12 +12,18 @@ namespace {
 // ratio of two classes.
 constexpr float kBetweenClasses = 1.41421356f;
 
-// Sleeping probes are traced with at most this share of the rays of all others, so that light in
-// open air, which few programs read, costs surfaces little.
+// Sleeping probes are traced with about this share of the rays of all others, so that light in open
+// air, which few programs read, costs surfaces little; with more where the period would be longer
+// than the longest.
 constexpr float kSleepingShare = 0.1f;
-// The longest period of turns of sleeping probes: one second at 60 Hz. It limits how slowly light
-// converges in fields that have hardly any other probes, whose updates cost little.
+// The longest period of turns of sleeping probes, of volumes of level 0: one second at 60 Hz. It
+// limits how slowly light converges in fields that have hardly any other probes, whose updates cost
+// little.
 constexpr std::uint32_t kLongestSleepingPeriod = 64;
+// An update takes at most this many times the sleeping probes of an even share of the period. About
+// twice as many fall due where every second update traces nothing, and up to all of them where the
+// period changes as things begin to move.
+constexpr std::size_t kMostOverShare = 3;
 
 /// 2^32 over the golden ratio. Its multiples modulo 2^32 are evenly spread, and so are those of any
 /// run of indices, or of every nth of them: Knuth, The Art of Computer Programming 3, sec. 6.4.
@@ -31,6 +37,16 @@ bool has_turn(int probe, std::uint32_t last_traced, std::uint32_t update, std::u
   const auto phase = static_cast<std::uint32_t>(spread * period >> 32u);
   // Updates count from 0, but those that traced a probe last from 1
   return (update + phase) / period != (last_traced - 1 + phase) / period;
+}
+
+/// Removes the turns beyond the most that an update takes, the latest ones first. `due`: probes in
+/// ascending order; `most`: of them.
+void limit_turns(std::vector<int>& due, std::size_t most, std::span<const ProbeStatus> statuses) {
+  if (due.size() <= most) return;
+  std::stable_sort(due.begin(), due.end(),
+                   [&](int a, int b) { return statuses[a].last_traced < statuses[b].last_traced; });
+  due.resize(most);
+  std::sort(due.begin(), due.end());
 }
 
 }  // namespace
@@ -66,6 +82,7 @@ Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles
   const auto all = std::count_if(statuses.begin(), statuses.end(), is_scheduled);
   const std::uint32_t turns =
       sleeping_period(static_cast<int>(sleeping), static_cast<int>(all - sleeping));
+  std::vector<int> due;
   for (int volume = 0; volume < store.volumes(); ++volume) {
     const std::uint32_t period = settings.max_bounces >= 0 ? 1u : 1u << roles[volume].level;
     const int first = store.grid(volume).first;
@@ -75,7 +92,7 @@ Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles
       if (takes_turns(status)) {
         if (has_turn(probe, status.last_traced, update, turns * period) &&
             !std::binary_search(stale.begin(), stale.end(), probe)) {
-          schedule.probes.push_back(probe);
+          due.push_back(probe);
         }
         continue;
       }
@@ -84,6 +101,11 @@ Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles
       if (turn || status.last_traced == 0) schedule.probes.push_back(probe);
     }
   }
+  limit_turns(due, kMostOverShare * (static_cast<std::size_t>(sleeping) / turns + 1), statuses);
+  const auto others = static_cast<std::ptrdiff_t>(schedule.probes.size());
+  schedule.probes.insert(schedule.probes.end(), due.begin(), due.end());
+  std::inplace_merge(schedule.probes.begin(), schedule.probes.begin() + others,
+                     schedule.probes.end());
   schedule.rays.assign(schedule.probes.size(), settings.rays_per_probe);
   return schedule;
 }

@@ -38,9 +38,10 @@ inline float longest_average(const FieldSettings& settings) {
 /// Whether a probe takes part in the schedule: all do but those that are off.
 bool is_scheduled(const ProbeStatus& status);
 
-/// Sleeping probes are traced in turns, each once in this many updates. Fog and lookups in open air
-/// read them, but no surface does. The largest share of them among the scenes in docs/math.md (57 %
-/// of the live probes, in the Cornell box) costs 8 % more rays then.
+/// Sleeping probes are traced in turns, each once in this many updates or more, see
+/// sleeping_period(); those of coarse volumes as many times less often as all probes there. Fog and
+/// lookups in open air read them, but no surface does. The largest share of them among the scenes
+/// in docs/math.md (57 % of the live probes, in the Cornell box) costs 8 % more rays then.
 inline constexpr std::uint32_t kSleepingPeriod = 16;
 
 /// Whether a probe sleeps and holds light, so that it is traced in its turns only. Sleeping probes
