@@ -246,12 +246,12 @@ class IrradianceField {
   /// what lights and emissive surfaces send straight. Near surfaces it follows edits within the
   /// update that applies them; in open air, within seven. There, farther than a cell from surfaces
   /// that keep still and from the bounds of instances that move, probes are traced in one of 16
-  /// updates, so that noise falls more slowly: to half within 60 updates. Where few probes are near
-  /// surfaces, it is one of up to 64; in coarse volumes of cascades, a share of that. Of spans of
-  /// different lengths the rest of the longer one is left alone. Queries outside all volumes are
-  /// answered by the nearest probes of the last. Runs on all cores. `world` is what FieldSettings::visibility
-  /// traces rays in. Visibility is by distances where it is null, or not on the device that holds
-  /// the field.
+  /// updates, so that noise falls more slowly: to half within 60 updates. Where few probes are
+  /// near surfaces, it is one of up to 64; in coarse volumes of cascades, a share of that. Of
+  /// spans of different lengths the rest of the longer one is left alone. Queries outside all
+  /// volumes are answered by the nearest probes of the last. Runs on all cores. `world` is what
+  /// FieldSettings::visibility traces rays in. Visibility is by distances where it is null, or not
+  /// on the device that holds the field.
   void irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> result,
                   const World* world = nullptr) const;
 

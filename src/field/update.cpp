@@ -159,7 +159,7 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
   statistics.residual = found.error;
   statistics.change = found.change;
   // Hardly any surfel reads the probes that take turns, so that their light is solved for after
-  // that of all others: surfaces are lit almost as without them, and the statistics tell of surfaces
+  // that of all others: surfaces are lit almost as without, and the statistics tell of them
   if (!in_turn.empty()) trace_groups(world, std::move(in_turn), /*in_turn=*/true, statistics);
 }
 
