@@ -36,7 +36,7 @@ struct Texture {
 enum class MipWeights : std::uint8_t { equal, alpha };
 
 /// Fills `texture.levels` below the first by box-filtering in linear light. Alpha itself is always
-/// the plain mean. Throws std::invalid_argument where the first level lacks texels, as below.
+/// the plain mean. Throws std::invalid_argument where the first level lacks texels.
 void build_mips(Texture& texture, MipWeights weights = MipWeights::equal);
 /// The same for a normal map, whose texels are not sRGB-encoded, of any length and, as usual,
 /// interpolated where they are seen. The vectors of MIPs are means of unit normals; surfaces that
@@ -44,7 +44,8 @@ void build_mips(Texture& texture, MipWeights weights = MipWeights::equal);
 /// with 1 minus the standard deviation, 0 to 1, of the slopes of a texel's normals along each axis,
 /// leaving out nearly half of them if these are steeper than the rest. Coats are rougher by it in
 /// views that average over normals: flat tiles stay flat between steep joints. Alpha is read so at
-/// every level; where it is 1, coats are no rougher.
+/// every level; where it is 1, coats are no rougher. Throws std::invalid_argument as build_mips
+/// does, and where the texels are sRGB-encoded.
 void build_normal_mips(Texture& texture);
 
 /// How a texture continues beyond its edges.

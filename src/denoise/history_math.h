@@ -59,8 +59,9 @@ LAMBENT_FN float averaged_frames(float before, float most) {
 const float kSameLookup = 0.85f;
 const float kOtherLookup = 0.6f;
 // The same while lookups are shown averaged as well. The average difference is then that from their
-// average, and single lookups, of a field that follows a change, may be off by a third: to discard
-// the average where they are farthest off would show them as stains.
+// average, and single lookups have much noise, as the field follows a change: to discard the
+// average where they are farthest off would show them as stains. Half of both numbers leaves no
+// less noise (docs/math.md, "While anything changes").
 const float kSameOfAveraged = 0.6f;
 const float kOtherOfAveraged = 0.35f;
 

@@ -2,13 +2,13 @@
 // MIPs of normal maps, which also hold how far most normals scatter.
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <numeric>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "scene/texture.h"
@@ -188,7 +188,7 @@ void measure_spread(const TextureLevel& finest, TextureLevel& coarse) {
 
 void build_normal_mips(Texture& texture) {
   check_first_level(texture);
-  assert(!texture.srgb);
+  if (texture.srgb) throw std::invalid_argument("a normal map is sRGB-encoded");
   TextureLevel& finest = texture.levels.front();
   for (std::size_t i = 3; i < finest.rgba.size(); i += 4) finest.rgba[i] = kNoSpread;
   std::vector<std::uint8_t> given = shown_normals(finest);

@@ -272,13 +272,13 @@ const char* flaw_of(const Environment& environment) {
              : "map has a pixel that is not within 0 to 1e10 W/(m^2 sr)";
 }
 
-namespace {
-
 const char* flaw_of(const ProbeVolume& volume) {
   if (!is_in_reach(volume.centre)) return "has a centre that is not within 1e9 m of the origin";
-  if (!within(volume.size, 0.0f, 2.0f * kMaxCoordinate)) return "has a size not within 0 to 2e9 m";
+  if (!within(volume.size, 0.0f, kMaxCoordinate)) return "has a size that is not within 0 to 1e9 m";
   return nullptr;
 }
+
+namespace {
 
 // Fails with the first flaw of an array's entries, and its place.
 template <class T, class... Counts>

@@ -21,6 +21,8 @@ const char* flaw_of(const Light& light);
 const char* flaw_of(const Camera& camera);
 const char* flaw_of(const Environment& environment);
 const char* flaw_of(const FogVolume& fog);
+/// Of its place and size; the rest depends on the field that it belongs to.
+const char* flaw_of(const ProbeVolume& volume);
 const char* flaw_of(const Curve& curve);
 
 /// Checks a scene's fog.

@@ -244,6 +244,10 @@ TEST(BuildMips, RefusesTexturesWithoutAllOfTheirTexels) {
     EXPECT_THROW(build_mips(*texture), std::invalid_argument);
     EXPECT_THROW(build_normal_mips(*texture), std::invalid_argument);
   }
+  Texture encoded;
+  encoded.levels.push_back({1, 1, {128, 128, 255, 255}});
+  encoded.srgb = true;
+  EXPECT_THROW(build_normal_mips(encoded), std::invalid_argument);
 }
 
 TEST(NearestTexel, ClampsLevelsToThoseThatExist) {

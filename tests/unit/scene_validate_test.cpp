@@ -42,6 +42,7 @@ TEST(Validate, NamesTheFirstThingWrong) {
       {"textures[0]", [](Scene& s) { s.textures[0].levels.clear(); }},
       {"volumes[0]", [](Scene& s) { s.volumes.resize(1), s.volumes[0].size.y = -1.0f; }},
       {"volumes[0]", [](Scene& s) { s.volumes.resize(1), s.volumes[0].size.z = kNan; }},
+      {"volumes[0]", [](Scene& s) { s.volumes.resize(1), s.volumes[0].centre.x = 2e9f; }},
       {"textures[0]", [](Scene& s) { s.textures[0].levels.pop_back(); }},
       {"textures[0]", [](Scene& s) { s.textures[0].levels[0].rgba.pop_back(); }},
       {"textures[0]", [](Scene& s) { s.textures[0].levels[1].width = 2; }},

@@ -82,6 +82,39 @@ TEST(FirstView, LooksIntoACaseWithoutALidFromAbove) {
   EXPECT_TRUE(first_view(World(flat)).value().inside) << "a flat without its ceiling";
 }
 
+// A panel of unlit colour tells nothing of how bright lamps are.
+TEST(FirstLight, IsWhatASoftBoxSendsBesideAnUnlitPanel) {
+  Scene scene = test::scene_of({test::box_mesh({-0.2f, 0, -0.2f}, {0.2f, 0.5f, 0.2f})});
+  scene.materials.push_back(test::lambert(glm::vec3(0.0f), glm::vec3(1.5f)));
+  scene.materials.push_back(test::lambert(glm::vec3(0.3f)));
+  scene.materials.back().unlit = true;
+  test::add(scene, test::quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 0));
+  test::add(scene, test::quad({-0.9f, 0.9f, 0.9f}, {0.3f, 0, 0.3f}, {0.1f, 0.4f, -0.1f}, 1));
+  test::add(scene, test::quad({-1, 0.6f, -1}, {2, 0, 0}, {0, 0.6f, 0}, 2));
+  const Camera camera = look_at({0, 1, 3}, {0, 0.4f, 0}, 0.8f);
+  EXPECT_EQ(choose_first_light(World(scene), camera), FirstLight::scene);
+}
+
+// Slopes all around a valley enclose its air, but it is no housing.
+TEST(FirstView, ShowsAValleyByDay) {
+  Mesh valley;
+  for (const auto& [half, y] : {std::pair(60.0f, 0.0f), std::pair(100.0f, 60.0f)}) {
+    for (const glm::vec2& corner : {glm::vec2(-1, -1), {-1, 1}, {1, 1}, {1, -1}}) {
+      valley.positions.emplace_back(half * corner.x, y, half * corner.y);
+      valley.normals.emplace_back(0.0f, 1.0f, 0.0f);
+    }
+  }
+  valley.triangles = {{0, 1, 2}, {0, 2, 3}};
+  for (unsigned i = 0; i < 4; ++i) {
+    const unsigned next = (i + 1) % 4;
+    valley.triangles.insert(valley.triangles.end(), {{i, i + 4, next + 4}, {i, next + 4, next}});
+  }
+  const Scene scene = test::scene_of({valley});
+  const World world(scene);
+  ASSERT_GE(survey_space(world, world_bounds(scene)).enclosed_share, 0.25f);
+  EXPECT_EQ(choose_first_light(world, first_view(world).value().camera), FirstLight::sun);
+}
+
 /// A car with panes all around, scaled.
 Scene car(float scale) {
   Scene scene;

@@ -270,7 +270,7 @@ TEST(Volumes, ThatMakeNoSenseAreRefused) {
   EXPECT_EQ(refused([](ProbeVolume&) {}), "");
   EXPECT_THAT(refused([](ProbeVolume& v) { v.centre.x = 99.0f; }), HasSubstr("'nook'"));
   EXPECT_THAT(refused([](ProbeVolume& v) { v.centre.x = 99.0f; }), HasSubstr("outside"));
-  EXPECT_THAT(refused([](ProbeVolume& v) { v.size.y = NAN; }), HasSubstr("within 1e9 m"));
+  EXPECT_THAT(refused([](ProbeVolume& v) { v.size.y = NAN; }), HasSubstr("within 0 to 1e9 m"));
   EXPECT_THAT(refused([](ProbeVolume& v) { v.size.y = -1.0f; }), HasSubstr("nook"));
   EXPECT_THAT(refused([](ProbeVolume& v) { v.axes[0] *= 2.0f; }), HasSubstr("rotation"));
   EXPECT_THAT(refused([](ProbeVolume& v) { v.axes[1] = v.axes[0]; }), HasSubstr("rotation"));

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "raytracing/boxes.h"
-#include "scene/limits.h"
+#include "scene/validate.h"
 
 namespace lambent {
 namespace {
@@ -62,9 +62,7 @@ Bounds bounds_of(const ProbeVolume& volume) {
 }
 
 Expected<Volume> plan_volume(const ProbeVolume& asked, const Bounds& scene_bounds) {
-  if (!is_in_reach(asked.centre) || !is_in_reach(asked.size)) {
-    return bad_volume(asked, "its place and size must be within 1e9 m");
-  }
+  if (const char* flaw = flaw_of(asked)) return bad_volume(asked, flaw);
   if (!is_rotation(asked.axes)) return bad_volume(asked, "its axes are no rotation");
   if (!scene_bounds.empty() && !overlap(bounds_of(asked), scene_bounds)) {
     return bad_volume(asked, "lies outside the scene");

@@ -70,13 +70,16 @@ std::string decode_percent(std::string_view text) {
   return decoded;
 }
 
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
 // RFC 3986, sec. 3.1: a letter, then letters, digits, "+", "-" or ".", then a colon.
 bool has_scheme(std::string_view uri) {
   const std::size_t colon = uri.find(':');
   if (colon == std::string_view::npos || colon == 0) return false;
   for (const char c : uri.substr(0, colon)) {
-    const bool allowed = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                         (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.';
+    const bool allowed = is_letter(c) || (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.';
     if (!allowed) return false;
   }
   return true;
@@ -85,7 +88,6 @@ bool has_scheme(std::string_view uri) {
 // Whether a decoded path begins with a drive of Windows, as "C:/a.bin" does: no scheme in use has
 // one letter.
 bool starts_with_drive(std::string_view path) {
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   return path.size() >= 3 && is_letter(path[0]) && path[1] == ':' &&
          (path[2] == '\\' || path[2] == '/');
 }
