@@ -50,7 +50,9 @@ struct FrameSettings {
   /// Rays per sample that gather its indirect light (final gathering), >= 0; 0: the field is looked
   /// up instead. Gathering resolves light and shade finer than the probes' spacing, but is noisy,
   /// and costs a ray and its shadow rays for each. Where it ends within a spacing of the probes
-  /// from its origin or from a light, up to four more follow.
+  /// from its origin or from a light, up to four more follow. With `denoise`, a quarter of them
+  /// gathers the light of what a pixel shows in a mirror, of roughness up to 0.05, and as many that
+  /// of what it shows behind glass; below 4, that light is looked up.
   int gather_rays = 0;
   /// Whether up to half of a sample's gathering rays, where there are several, go where a pilot
   /// found most of the light: a picture an eighth as large, 64 to 256 pixels along its longer side
@@ -69,8 +71,8 @@ struct FrameSettings {
   /// Whether gathered light, traced reflections, the light through glass and direct light of
   /// emissive surfaces are filtered (lambent/denoise.h). Light of directional, point and spot
   /// lights has no noise and is not filtered. Parts of a picture then need 63 more rows on each
-  /// side, which are traced, too, and each pixel takes 360 bytes, and 84 more where surfaces are
-  /// smooth enough to be mirrors. With glass these are 65 rows, with rough glass 130, and 560
+  /// side, which are traced, too, and each pixel takes 360 bytes, and 160 more where surfaces are
+  /// smooth enough to be mirrors. With glass these are 65 rows, with rough glass 130, and 640
   /// bytes.
   bool denoise = false;
   /// Number of the renderer's pictures over which light is averaged before it is filtered, 1 to

@@ -5,28 +5,13 @@
 #include <cassert>
 #include <span>
 
+#include "compose/gather/excess.h"
 #include "compose/frame_tasks.h"
 #include "compose/pixel_math.h"
 #include "core/parallel.h"
 
 namespace lambent {
 namespace {
-
-/// Filters the light of rare bright rays, without regard to differences of light, and adds it to
-/// the light that is filtered already. `detail`: light whose differences from pixel to pixel it
-/// takes in proportion; empty: it is even.
-void add_excess(const DenoiseView& view, std::span<const vec3> excess, std::span<const vec3> detail,
-                const DenoiseSettings& settings, FilteredPixels& pixels, std::span<vec3> filtered) {
-  const auto is_some = [](const vec3& light) { return light != vec3(0.0f); };
-  if (std::none_of(excess.begin(), excess.end(), is_some)) return;
-  pixels.filtered_excess.resize(excess.size());
-  [[maybe_unused]] const Expected<void> done =
-      pixels.denoiser.filter(view, {excess, detail, {}}, settings, pixels.filtered_excess);
-  assert(done);  // sizes are the view's
-  parallel_chunks(excess.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) filtered[i] += pixels.filtered_excess[i];
-  });
-}
 
 /// Filters the light that coats reflect, between pixels whose lobes overlap. Returns whether rays
 /// light any coat.
@@ -40,7 +25,8 @@ bool filter_lobes(DenoiseView view, const DenoiseSettings& settings, FilteredPix
   [[maybe_unused]] const Expected<void> done = pixels.denoiser.filter(
       view, {.light = coats.light, .variance = coats.variance}, settings, coats.filtered);
   assert(done);  // sizes are the view's
-  add_excess(view, coats.excess, {}, excess_denoising(), pixels, coats.filtered);
+  add_excess(view, coats.excess, {}, excess_denoising(), pixels.denoiser, pixels.filtered_excess,
+             coats.filtered);
   return true;
 }
 
@@ -52,20 +38,23 @@ void filter_mirrored(DenoiseView view, FilteredPixels& pixels) {
   filter_lobes(view, mirrored_denoising(), pixels, pixels.mirrored);
 }
 
-/// Filters the light of emitters on the surfaces that mirrors show.
-void filter_mirrored_emitters(DenoiseView view, Denoiser& denoiser,
-                              MirroredEmitterPixels& emitters) {
+/// Filters the light of emitters on the surfaces that mirrors show, and what these gather.
+void filter_mirrored_bases(DenoiseView view, FilteredPixels& pixels) {
+  MirroredBasePixels& bases = pixels.mirrored_bases;
   const auto is_shown = [](float depth) { return depth > 0.0f; };
-  const bool any = std::any_of(emitters.depths.begin(), emitters.depths.end(), is_shown);
-  emitters.filtered.resize(any ? emitters.light.size() : 0);
+  const bool any = std::any_of(bases.depths.begin(), bases.depths.end(), is_shown);
+  bases.filtered_emitters.resize(any ? bases.emitters.size() : 0);
+  bases.gather.filtered.clear();
   if (!any) return;
-  view.positions_ws = emitters.positions_ws;
-  view.normals_ws = emitters.normals_ws;
-  view.depths = emitters.depths;
-  [[maybe_unused]] const Expected<void> done = denoiser.filter(
-      view, {.light = emitters.light, .variance = emitters.variance, .levels = emitters.levels},
-      emitter_denoising(), emitters.filtered);
+  view.positions_ws = bases.positions_ws;
+  view.normals_ws = bases.normals_ws;
+  view.depths = bases.depths;
+  [[maybe_unused]] const Expected<void> done = pixels.denoiser.filter(
+      view,
+      {.light = bases.emitters, .variance = bases.emitter_variance, .levels = bases.emitter_levels},
+      emitter_denoising(), bases.filtered_emitters);
   assert(done);  // sizes are the view's
+  bases.gather.filter(view, pixels.denoiser);
 }
 
 /// Filters what coats, clearcoats and coats in mirrors reflect, and highlights of emitters. As
@@ -98,13 +87,16 @@ void show_coat(const FilteredCoats& coats, std::size_t i, std::size_t pixel, flo
   add(layers.all, pixel, glossy);
 }
 
-/// Adds the filtered light of emitters on what a pixel's mirror shows to its layers.
-void show_mirrored_emitters(const MirroredEmitterPixels& emitters, std::size_t i, std::size_t pixel,
-                            float share, Layers& layers) {
-  if (emitters.filtered.empty() || emitters.depths[i] <= 0.0f) return;
-  const vec3 glossy = share * emitters.albedo[i] * emitters.filtered[i];
-  add(layers.glossy, pixel, glossy);
-  add(layers.all, pixel, glossy);
+/// Adds the filtered light of what a pixel's mirror shows to its layers.
+void show_mirrored_base(const MirroredBasePixels& bases, std::size_t i, std::size_t pixel,
+                        float share, Layers& layers) {
+  if (bases.filtered_emitters.empty() || bases.depths[i] <= 0.0f) return;
+  vec3 glossy = bases.emitter_albedo[i] * bases.filtered_emitters[i];
+  if (!bases.gather.filtered.empty()) {
+    glossy += bases.gather.albedo[i] * bases.gather.filtered[i];
+  }
+  add(layers.glossy, pixel, share * glossy);
+  add(layers.all, pixel, share * glossy);
 }
 
 }  // namespace
@@ -148,16 +140,13 @@ void filter_pixels(const FrameRequest& request, FilteredPixels& pixels) {
   pixels.filtered_emitters.resize(pixels.emitters.size());
   if (!pixels.gathered.empty()) {
     view.normals_ws = pixels.geometric_normals_ws;
-    [[maybe_unused]] const Expected<void> done =
-        pixels.denoiser.filter(view,
-                               {.light = pixels.gathered,
-                                .base = pixels.looked_up,
-                                .variance = pixels.gathered_variance,
-                                .history_variance = pixels.gathered_history_variance},
-                               {}, pixels.filtered_gathered);
-    assert(done);  // sizes are the view's
-    add_excess(view, pixels.excess, pixels.filtered_gathered, geometric_denoising(), pixels,
-               pixels.filtered_gathered);
+    filter_gathered(view,
+                    {.light = pixels.gathered,
+                     .base = pixels.looked_up,
+                     .variance = pixels.gathered_variance,
+                     .history_variance = pixels.gathered_history_variance},
+                    pixels.excess, pixels.denoiser, pixels.filtered_excess,
+                    pixels.filtered_gathered);
   }
   if (!pixels.emitters.empty()) {
     view.normals_ws = pixels.normals_ws;
@@ -170,7 +159,7 @@ void filter_pixels(const FrameRequest& request, FilteredPixels& pixels) {
                                emitter_denoising(), pixels.filtered_emitters);
     assert(done);
   }
-  filter_mirrored_emitters(view, pixels.denoiser, pixels.mirrored_emitters);
+  filter_mirrored_bases(view, pixels);
   filter_coats(view, request.settings.samples, pixels);
   filter_through(view, pixels.denoiser, pixels.through);
 }
@@ -194,7 +183,7 @@ void show_filtered(const FilteredPixels& pixels, const ShownPixels& shown, float
       show_coat(pixels.coats, i, pixel, share, layers);
       show_coat(pixels.clearcoats, i, pixel, share, layers);
       show_coat(pixels.mirrored, i, pixel, share, layers);
-      show_mirrored_emitters(pixels.mirrored_emitters, i, pixel, share, layers);
+      show_mirrored_base(pixels.mirrored_bases, i, pixel, share, layers);
       if (pixels.filtered_gathered.empty() || pixels.received_weight[i] == 0.0f) continue;
       const vec3 irradiance = share * pixels.filtered_gathered[i];
       const vec3 indirect = pixels.indirect_albedo[i] * irradiance;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compose/frame_passes.h"
+#include "compose/gather/shown_gather.h"
 #include "compose/gbuffer.h"
 #include "compose/glossy/glossy_frame.h"
 #include "compose/layers.h"
@@ -32,16 +33,17 @@ struct FilteredCoats {
   void resize(std::size_t pixels, bool has_variance);
 };
 
-/// The light of emitters on the surfaces that mirrors show, one entry a pixel. See
-/// MirroredEmitters.
-struct MirroredEmitterPixels {
+/// The surfaces that mirrors show, one entry a pixel, and their light that is filtered. See
+/// ShownBase.
+struct MirroredBasePixels {
   std::vector<glm::vec3> positions_ws, normals_ws;
-  std::vector<float> depths;     ///< By way of the mirror [m]; 0: the pixel shows none.
-  std::vector<glm::vec3> light;  ///< Divided by albedo and level.
-  std::vector<float> variance;   ///< Empty where one sample is taken.
-  std::vector<float> levels;
-  std::vector<glm::vec3> albedo;    ///< Factor to the camera's radiance.
-  std::vector<glm::vec3> filtered;  ///< Empty where there is none.
+  std::vector<float> depths;            ///< By way of the mirror [m]; 0: the pixel shows none.
+  std::vector<glm::vec3> emitters;      ///< Divided by albedo and level.
+  std::vector<float> emitter_variance;  ///< Empty where one sample is taken.
+  std::vector<float> emitter_levels;
+  std::vector<glm::vec3> emitter_albedo;     ///< Factor to the camera's radiance.
+  std::vector<glm::vec3> filtered_emitters;  ///< Empty where there is none.
+  ShownGatherPixels gather;                  ///< Empty where the surfaces gather no light.
 
   /// Makes room for this many pixels; 0 for none.
   void resize(std::size_t pixels, bool has_variance);
@@ -67,7 +69,7 @@ struct FilteredPixels {
   FilteredCoats mirrored;                        ///< The coats that mirrors show.
   std::vector<glm::vec3> mirrored_positions_ws;  ///< Places of their mirror images.
   std::vector<float> mirrored_depths;            ///< [m]; 0: the pixel shows none.
-  MirroredEmitterPixels mirrored_emitters;
+  MirroredBasePixels mirrored_bases;
   std::vector<glm::vec3> to_viewer_ws;  ///< Empty where there are no coats.
   // Specular light of emitters, divided by filtered_coat_albedo() where rays light the coat. Its
   // lobes have a width of highlight_alpha()
@@ -89,6 +91,8 @@ struct BandToFilter {
   const ReflectedLight& direct;
   const GatheredLight* gathered = nullptr;            ///< Null: no light is gathered.
   const std::vector<glm::vec3>* looked_up = nullptr;  ///< Required with `gathered`.
+  const ShownGather* in_mirrors = nullptr;            ///< Null: mirrors show no gathered light.
+  const ShownGather* behind_glass = nullptr;          ///< Null: what is behind glass shows none.
   const CoatLight* coats = nullptr;                   ///< Null: no coat has rays.
   bool filters_clearcoats = false;                    ///< Requires `coats`.
   const ClearcoatsShown* clearcoats = nullptr;        ///< Null: the band has none.

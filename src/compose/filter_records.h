@@ -41,13 +41,19 @@ struct FilteredPixelsRecord {
   Vec3Array mirrored_normals_ws;
   FloatArray mirrored_depths;
   LobeGuideArray mirrored_lobes;
-  Vec3Array mirrored_emitters;  ///< See MirroredEmitterPixels, as of the next six.
+  Vec3Array mirrored_emitters;  ///< See MirroredBasePixels, as of the next twelve.
   FloatArray mirrored_emitter_variance;
   FloatArray mirrored_emitter_levels;
   Vec3Array mirrored_emitter_albedo;
-  Vec3Array mirrored_emitter_positions_ws;
-  Vec3Array mirrored_emitter_normals_ws;
-  FloatArray mirrored_emitter_depths;
+  Vec3Array mirrored_base_positions_ws;
+  Vec3Array mirrored_base_normals_ws;
+  FloatArray mirrored_base_depths;
+  Vec3Array mirrored_geometric_normals_ws;
+  Vec3Array mirrored_gathered;
+  FloatArray mirrored_gathered_variance;
+  Vec3Array mirrored_excess;
+  Vec3Array mirrored_looked_up;
+  Vec3Array mirrored_indirect_albedo;
   Vec3Array highlights;
   Vec3Array highlight_albedo;
   LobeGuideArray highlight_lobes;
@@ -57,6 +63,7 @@ struct FilteredPixelsRecord {
   Vec3Array filtered_clearcoats;
   Vec3Array filtered_mirrored;
   Vec3Array filtered_mirrored_emitters;
+  Vec3Array filtered_mirrored_gathered;
   Vec3Array filtered_highlights;
 };
 LAMBENT_DEVICE_ARRAY(FilteredPixelsArray, FilteredPixelsRecord, 8)
@@ -98,9 +105,9 @@ struct KeepClearcoatsArguments {
   uint padding;
 };
 
-/// Stores the light of emitters on what pixels' mirrors show apart; see
-/// Glossy::keep_mirrored_emitters.
-struct KeepMirroredEmittersArguments {
+/// Stores the surfaces that pixels' mirrors show, with the light of emitters there; see
+/// Glossy::keep_mirrored_bases.
+struct KeepMirroredBasesArguments {
   SceneArray scene;
   LitPointArray points;  ///< One a path, as are the next eight arrays.
   PixelSurfaceArray surfaces;
@@ -108,28 +115,45 @@ struct KeepMirroredEmittersArguments {
   UintArray pixels;
   Vec3Array diffuse;   ///< Light is added here.
   Vec3Array specular;  ///< Light is added here.
-  Vec3Array drawn;     ///< Light of emitters.
+  Vec3Array drawn;     ///< Light of emitters; read where `draws` is above 0, as the next two.
   Vec3Array drawn_specular;
   FloatArray drawn_squares;
-  MirroredEmittersArray emitters;
-  uint count;  ///< Number of paths.
-  uint draws;  ///< Samples of emitters a path.
+  ShownBaseArray bases;
+  uint count;    ///< Number of paths.
+  uint draws;    ///< Samples of emitters a path.
+  uint gathers;  ///< 1: rays gather the surfaces' indirect light.
+  uint padding;
 };
 
-/// Stores what the coats that a band's mirrors show reflect, and the light of emitters there.
+/// Writes the points at which what a band's pixels show gathers light, with their field queries.
+struct ShownPointsArguments {
+  PixelSurfaceArray surfaces;  ///< Of the pixels.
+  ShownBaseArray bases;
+  LitPointArray points;
+  PixelSurfaceArray shown_surfaces;  ///< Flags and gi_share alone.
+  QueryArray queries;
+  UintArray points_found;  ///< One number, to which that of the points is added.
+  uint count;              ///< Number of pixels.
+  uint padding;
+};
+
+/// Stores what the coats that a band's mirrors show reflect, and the light of the surfaces there.
 struct KeepMirroredArguments {
   LitPointArray points;
   PixelSurfaceArray surfaces;
   MirroredCoatArray mirrored;
-  MirroredEmittersArray emitters;  ///< Read where `draws` is above 0.
-  Vec4Array fog;                   ///< See fog_along(); read where has_fog is 1.
+  ShownBaseArray bases;  ///< Read where kKeepsMirroredBases is set.
+  Vec3Array looked_up;   ///< Irradiance by lookups; read where kGathersInMirrors is set.
+  Vec4Array fog;         ///< See fog_along(); read where has_fog is 1.
   FilteredPixelsArray pixels;
   vec3 camera_ws;
   vec3 camera_back;  ///< Unit; against the direction of view.
   uint first;        ///< First pixel of the band among the traced pixels.
   uint count;
   uint has_fog;
-  uint draws;  ///< Samples of emitters on what mirrors show; 0: their light is not stored.
+  uint keeps;  ///< kKeepsMirroredBases, kGathersInMirrors.
+  uint draws;  ///< Samples of emitters on what mirrors show.
+  uint padding;
 };
 
 /// Adds filtered light to layers.
@@ -139,12 +163,14 @@ struct AddFilteredArguments {
   uint first;  ///< First of the shown pixels among the traced ones.
   uint count;
   float share;
-  uint emitters;  ///< 1: add this kind of light, as for the next five.
+  uint emitters;  ///< 1: add this kind of light, as for the next six.
   uint gathered;
   uint coats;
   uint clearcoats;
   uint mirrored;
   uint mirrored_emitters;
+  uint mirrored_gathered;
+  uint padding;
 };
 
 LAMBENT_END

@@ -8,8 +8,9 @@
 #include "compose/adaptive/further_samples.h"
 #include "compose/check_frame.h"
 #include "compose/frame_passes.h"
+#include "compose/glossy/glossy_frame.h"
 #include "compose/history/moved_parts.h"
-#include "compose/motion.h"
+#include "compose/motion/motion.h"
 #include "lambent/world.h"
 #include "raytracing/world_access.h"
 
@@ -42,7 +43,9 @@ void run_sample(const FrameRequest& request, int sample, const ProgressFn& progr
     if (looks_up(request)) passes.indirect();
     if (gathers(request)) passes.gather();
     if (sources.field != nullptr) passes.glossy();
+    if (gathers_in_mirrors(request)) passes.gather_in_mirrors();
     if (tracer_of(request.world).has_glass()) passes.transmission();
+    if (gathers_behind_glass(request)) passes.gather_behind_glass();
     if (sources.rsm) passes.rsm_upsample();
     if (has_fog(request)) passes.fog();
     passes.compose(share);

@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <optional>
 
+#include "compose/accumulate.h"
 #include "compose/adaptive/layers_so_far.h"
 #include "compose/filter_frame.h"
 #include "compose/fog/fog_frame.h"
 #include "compose/frame_passes.h"
 #include "compose/frame_tasks.h"
 #include "compose/gather/guide_frame.h"
+#include "compose/gather/shown_gather.h"
 #include "compose/glossy/glossy_frame.h"
 #include "compose/history/light_history.h"
 #include "compose/layers.h"
-#include "compose/motion.h"
+#include "compose/motion/motion.h"
 #include "compose/pixel_math.h"
 #include "compose/rsm/rsm_frame.h"
 #include "core/image/exposure.h"
@@ -46,80 +48,6 @@ void look_up(const World& world, const IrradianceField& field, CorrectionUse use
   });
   irradiance.resize(gbuffer.size());
   look_up_irradiance(field, queries, use, irradiance, world);
-}
-
-/// The light of one sample of a band.
-struct BandLight {
-  ReflectedLight direct;
-  std::vector<vec3> irradiance;          // indirect, on the surface
-  bool has_indirect = false;             // `irradiance` is filled in
-  bool looked_up = false;                // it was looked up in the field
-  bool is_filtered = false;              // it is gathered, and shown once it was filtered
-  std::vector<vec3> mirror_irradiance;   // indirect, on a surface that faces coat_direction()
-  CoatLight coats;                       // light of coats from rays; empty: no rays
-  bool coats_are_filtered = false;       // that light is shown once it was filtered
-  std::vector<vec3> clearcoats;          // light of clearcoats; empty: from mirror_irradiance
-  TransmittedLight transmitted;          // transmitted light; empty: no glass
-  bool transmitted_is_filtered = false;  // that light is shown once it was filtered
-  std::vector<vec4> fog;                 // in front of the pixels, see fog_along(); or empty
-};
-
-/// Adds a band's sample to the layers, times `share_of_sample` and the weights of its pixels.
-void accumulate(const Camera& camera, const GBuffer& gbuffer, const BandLight& light,
-                const ShownPixels& shown, float share_of_sample, Layers& layers) {
-  const CameraRecord record = camera_record(camera, 1, 1);
-  parallel_chunks(shown.count, kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::size_t pixel = shown.first_in_layers + k, i = shown.first + k;
-      const float share = share_of_sample * gbuffer.hits[i].sample_weight;
-      const vec3 fog = light.fog.empty() ? vec3(0.0f) : vec3(light.fog[i]);
-      const float passed = light.fog.empty() ? 1.0f : light.fog[i].w;
-      add(layers.fog, pixel, share * fog);
-      if (gbuffer.hit[i] == 0) {
-        const vec3 sky = gbuffer.surfaces[i].emission;
-        add(layers.emission, pixel, share * passed * sky);
-        add(layers.all, pixel, share * (passed * sky + fog));
-        continue;
-      }
-      const Surface& surface = gbuffer.surfaces[i];
-      const Reflectance& reflectance = surface.reflectance;
-
-      // Reflect the field's light: by the base under the coat, and by the coat's directional albedo
-      const float n_dot_v = dot(surface.normal_ws, gbuffer.to_viewer_ws[i]);
-      vec3 indirect(0.0f), glossy = light.direct.specular[i];
-      if (light.has_indirect && surface.gi_share > 0.0f) {
-        if (!light.is_filtered) {
-          const vec3 irradiance =
-              indirect_share(surface.gi_share, light.looked_up ? 1u : 0u) * light.irradiance[i];
-          indirect = reflected_indirect(reflectance, n_dot_v, irradiance);
-          add(layers.irradiance, pixel, share * irradiance);
-        }
-        vec4 by_rays = light.coats.empty() ? vec4(0.0f) : light.coats.light[i];
-        if (light.coats_are_filtered) by_rays = vec4(vec3(0.0f), by_rays.w);
-        glossy +=
-            coat_light(reflectance, n_dot_v, surface.gi_share, by_rays, light.mirror_irradiance[i]);
-        glossy += light.clearcoats.empty() ? clearcoat_light(reflectance.layers, surface.gi_share,
-                                                             light.mirror_irradiance[i])
-                                           : light.clearcoats[i];
-      }
-
-      const float seen = share * passed;
-      const bool adds_transmitted = !light.transmitted.empty() && !light.transmitted_is_filtered;
-      const vec3 transmitted = adds_transmitted ? light.transmitted.light[i] : vec3(0.0f);
-      add(layers.direct, pixel, seen * light.direct.diffuse[i]);
-      add(layers.indirect, pixel, seen * indirect);
-      add(layers.glossy, pixel, seen * glossy);
-      add(layers.transmission, pixel, seen * transmitted);
-      add(layers.emission, pixel, seen * surface.emission);
-      add(layers.all, pixel,
-          seen * (light.direct.diffuse[i] + indirect + glossy + transmitted + surface.emission) +
-              share * fog);
-      add(layers.albedo, pixel, share * reflectance.diffuse);
-      add(layers.normal, pixel, share * surface.normal_ws);
-      add(layers.position, pixel, share * surface.position_ws);
-      layers.depth.data[pixel] += share * view_depth(record, surface.position_ws);
-    }
-  });
 }
 
 /// Gives an image a frame's layers, all zero.
@@ -238,15 +166,27 @@ class FramePassesCpu final : public FramePasses {
     finish_pass("glossy");
   }
 
+  void gather_in_mirrors() override {
+    now_->frame.rays +=
+        gather_shown(request(), band_, drawn_sample(), light_.coats.mirrored_bases, in_mirrors_);
+    finish_pass("gather");
+  }
+
   void transmission() override {
     KeptBehind kept;
     if (filters_through(request())) {
       kept = {&to_filter_.through, first_pixel()};
-      kept.seen->start(traced_pixels(request()), gbuffer_, kept.first, request().settings);
+      kept.seen->start(request(), traced_pixels(request()), gbuffer_, kept.first);
     }
     now_->frame.rays +=
         look_through_band(request(), band_, sample_, gbuffer_, kept, glossy_, light_.transmitted);
     finish_pass("transmission");
+  }
+
+  void gather_behind_glass() override {
+    now_->frame.rays +=
+        gather_shown(request(), band_, drawn_sample(), light_.transmitted.bases, behind_glass_);
+    finish_pass("gather");
   }
 
   void rsm_upsample() override {
@@ -291,6 +231,8 @@ class FramePassesCpu final : public FramePasses {
       if (band.filters_clearcoats && !light_.clearcoats.empty()) {
         band.clearcoats = &glossy_.clearcoats;
       }
+      if (gathers_in_mirrors(request())) band.in_mirrors = &in_mirrors_;
+      if (gathers_behind_glass(request())) band.behind_glass = &behind_glass_;
       if (light_.is_filtered) band.gathered = &gathered_, band.looked_up = &light_.irradiance;
       if (light_.transmitted_is_filtered) band.transmitted = &light_.transmitted;
       keep_pixels(request(), band_, band, to_filter_);
@@ -377,6 +319,7 @@ class FramePassesCpu final : public FramePasses {
   BandLight light_;
   GatherGuide guide_;
   GatheredLight gathered_;
+  ShownGather in_mirrors_, behind_glass_;
   FilteredPixels to_filter_;
   LightHistory history_, next_history_;  // of the previous frame, and of this one
   std::vector<FieldQuery> queries_;

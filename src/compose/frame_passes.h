@@ -53,6 +53,16 @@ inline bool gathers(const FrameRequest& request) {
   return request.sources.field != nullptr && request.settings.gather_rays > 0;
 }
 
+// Rays that gather the light of a pixel, over those for what it shows in a mirror or behind glass.
+// Both weaken what they show, and 16 rays, of 4 samples, do once they are filtered.
+constexpr int kGathersOverShown = 4;
+
+/// Rays that gather the light of what a pixel shows in its mirror, and of that behind its glass, a
+/// sample.
+inline int shown_gather_rays(const FrameSettings& settings) {
+  return settings.gather_rays / kGathersOverShown;
+}
+
 /// Whether a pilot guides these rays.
 inline bool guides_gathers(const FrameRequest& request) {
   return gathers(request) && request.settings.guides_gathers && request.settings.gather_rays > 1;
@@ -132,8 +142,14 @@ class FramePasses {
   virtual void gather() = 0;
   /// Light that coats reflect, from rays of their own or from the field.
   virtual void glossy() = 0;
+  /// Indirect light of the surfaces that the pixels' mirrors show, from rays of these. See
+  /// gathers_in_mirrors().
+  virtual void gather_in_mirrors() = 0;
   /// Light that is transmitted through surfaces.
   virtual void transmission() = 0;
+  /// Indirect light of the first opaque surfaces behind glass, from rays of these. See
+  /// gathers_behind_glass().
+  virtual void gather_behind_glass() = 0;
   /// Adds the light of reflective shadow maps to the field's, if any.
   virtual void rsm_upsample() = 0;
   /// Inscattered light and transmittance of the fog in front of each pixel. For scenes with fog.

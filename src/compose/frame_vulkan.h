@@ -14,8 +14,8 @@
 #include "compose/filter_records.h"
 #include "compose/frame_passes.h"
 #include "compose/frame_records.h"
-#include "compose/glossy/seen_through_records.h"
-#include "compose/motion_records.h"
+#include "compose/frame_vulkan_memory.h"
+#include "compose/motion/motion_records.h"
 #include "compose/pixel_math.h"
 #include "denoise/denoise_vulkan.h"
 #include "field/correction/correction_use.h"
@@ -46,8 +46,8 @@
 #include "shaders/hit_queries_comp.h"
 #include "shaders/keep_behind_comp.h"
 #include "shaders/keep_clearcoats_comp.h"
+#include "shaders/keep_mirrored_bases_comp.h"
 #include "shaders/keep_mirrored_comp.h"
-#include "shaders/keep_mirrored_emitters_comp.h"
 #include "shaders/keep_pixels_comp.h"
 #include "shaders/keep_through_comp.h"
 #include "shaders/luminances_comp.h"
@@ -61,6 +61,7 @@
 #include "shaders/seen_distances_comp.h"
 #include "shaders/show_clearcoats_comp.h"
 #include "shaders/show_through_comp.h"
+#include "shaders/shown_points_comp.h"
 #include "shaders/split_paths_comp.h"
 #include "shaders/start_through_comp.h"
 #include "shaders/through_rays_comp.h"
@@ -110,117 +111,13 @@ struct FrameKernels {
   vulkan::Kernel compose{device, shaders::compose_comp(), "compose"};
   vulkan::Kernel keep_pixels{device, shaders::keep_pixels_comp(), "keep pixels"};
   vulkan::Kernel keep_mirrored{device, shaders::keep_mirrored_comp(), "keep coats in mirrors"};
-  vulkan::Kernel keep_mirrored_emitters{device, shaders::keep_mirrored_emitters_comp(),
-                                        "keep emitters' light in mirrors"};
+  vulkan::Kernel keep_mirrored_bases{device, shaders::keep_mirrored_bases_comp(),
+                                     "keep surfaces in mirrors"};
+  vulkan::Kernel shown_points{device, shaders::shown_points_comp(), "points that are shown"};
   vulkan::Kernel keep_clearcoats{device, shaders::keep_clearcoats_comp(), "keep clearcoats"};
   vulkan::Kernel add_filtered{device, shaders::add_filtered_comp(), "add filtered"};
   vulkan::Kernel luminances{device, shaders::luminances_comp(), "luminances"};
   vulkan::Kernel scale_layers{device, shaders::scale_layers_comp(), "scale layers"};
-};
-
-/// Light that is filtered, of the traced rows: 400 bytes a pixel, and 168 more where mirrors may
-/// show coats and light of emitters. See FilteredPixelsRecord.
-struct FilteredBuffers {
-  FilteredPixelsRecord record;
-  vulkan::Buffer addresses;  ///< Holds `record`.
-  vulkan::Buffer positions_ws, normals_ws, geometric_normals_ws, depths;
-  vulkan::Buffer gathered, gathered_variance, excess, looked_up, indirect_albedo, received_weight;
-  vulkan::Buffer emitters, emitter_variance, emitter_albedo, emitter_levels;
-  vulkan::Buffer coats, coat_excess, coat_variance, coat_albedo, coat_lobes;
-  vulkan::Buffer clearcoats, clearcoat_excess, clearcoat_variance, clearcoat_albedo;
-  vulkan::Buffer clearcoat_normals_ws, clearcoat_lobes;
-  vulkan::Buffer highlights, highlight_albedo, highlight_lobes;
-  vulkan::Buffer filtered_gathered, filtered_emitters, filtered_coats, filtered_highlights;
-  vulkan::Buffer filtered_clearcoats;
-  vulkan::Buffer mirrored, mirrored_albedo, mirrored_positions_ws, mirrored_normals_ws;
-  vulkan::Buffer mirrored_depths, mirrored_lobes, filtered_mirrored;
-  vulkan::Buffer mirrored_emitters, mirrored_emitter_variance, mirrored_emitter_levels;
-  vulkan::Buffer mirrored_emitter_albedo, mirrored_emitter_positions_ws;
-  vulkan::Buffer mirrored_emitter_normals_ws, mirrored_emitter_depths, filtered_mirrored_emitters;
-};
-
-/// Light seen through surfaces, which is filtered, of the traced rows: 216 bytes a pixel.
-struct SeenThroughBuffers {
-  SeenThroughRecord record;
-  vulkan::Buffer addresses;  ///< Holds `record`.
-  vulkan::Buffer depths, positions_ws, normals_ws;
-  vulkan::Buffer emitters, emitter_variance, emitter_levels, emitter_albedo;
-  vulkan::Buffer coats, coat_albedo, coat_lobes, coat_distances;
-  vulkan::Buffer light, albedo, lobes, distances;
-  vulkan::Buffer filtered_emitters, filtered_coats, filtered;
-};
-
-/// Rays that gather light, their hits, and the field's irradiance there.
-struct GatherBuffers {
-  vulkan::Buffer rays, points, shaded, direct, field;
-};
-
-/// Memory of a PathList.
-struct PathBuffers {
-  vulkan::Buffer rays, cones, paths, pixels, count;
-
-  PathList list() const {
-    return {{rays.address()},
-            {cones.address()},
-            {paths.address()},
-            {pixels.address()},
-            {count.address()}};
-  }
-};
-
-/// Memory that a renderer reuses from frame to frame. Buffers grow as frames need them to.
-struct FrameMemory {
-  explicit FrameMemory(const vulkan::Device& device)
-      : pixel_shading(device),
-        gather_shading(device),
-        mapper(device),
-        rsm(device),
-        rsm_direct(device),
-        denoiser(device),
-        antialiasing(device) {}
-
-  HitShading pixel_shading, gather_shading;
-  RsmMapperVulkan mapper;
-  RsmGathererVulkan rsm;
-  RsmDirectVulkan rsm_direct;
-  RsmMapsOnDevice maps;
-  DenoiserVulkan denoiser;
-  FilteredBuffers filtered;
-  SeenThroughBuffers through;
-  TaaVulkan antialiasing;
-
-  // One entry for each pixel of a band
-  vulkan::Buffer rays, cones, hits, points, surfaces, diffuse, specular;
-  vulkan::Buffer queries, irradiance, mirror_irradiance, subtracted_field, from_maps;
-  vulkan::Buffer gathered_variance, emitters, emitter_squares, emitter_specular;
-  vulkan::Buffer sky, sky_in_clearcoats;
-  // For the rays that gather the light of some pixels at a time, the secondary gathers at their
-  // hits, those at the hits of these, and so on
-  std::array<GatherBuffers, 1 + kMaxSecondaryRays> gathers;
-  vulkan::Buffer gathering_weights, guided_rays, guide_points, guide_places;
-  vulkan::Buffer gathered_hits, gathering_indices, secondary_indices, field_grids;
-  // Positions, normals and depths of a band's pixels, and of the small view of reflective shadow
-  // maps
-  vulkan::Buffer band_geometry[3], small_geometry[3];
-  // Motion of a band's pixels, and the rays that go on behind blended surfaces
-  vulkan::Buffer motion, further_rays, further_hits, further_ray_count;
-  // The scene of the previous frame
-  vulkan::Buffer scene_before, instances_before, positions_before;
-  // Pixels, rays and lists of paths, for the rows around a band whose coats are lit by rays.
-  // Bounces use the two lists in turn
-  vulkan::Buffer coats, coat_guides, coat_points, coat_surfaces, coat_rays, mirrored, own_rays;
-  vulkan::Buffer mirrored_emitters;
-  PathBuffers path_lists[2];
-  PathBuffers forks;  // reflected branches, traced later
-  vulkan::Buffer path_hits, path_points, path_surfaces, path_diffuse, path_specular;
-  vulkan::Buffer path_queries, path_answers;
-  vulkan::Buffer path_drawn, path_drawn_squares, path_drawn_specular, coat_distances;
-  vulkan::Buffer path_sky;
-  // Fog: its froxels, and its effect on a band's pixels
-  FroxelFog fog;
-  vulkan::Buffer media, froxels, fog_record, pixel_fog;
-  // One entry for each pixel of the picture
-  vulkan::Buffer layers, picture_motion, luminances, skipped;
 };
 
 class FramePassesVulkan final : public FramePasses {
@@ -238,7 +135,9 @@ class FramePassesVulkan final : public FramePasses {
   void indirect() override;
   void gather() override;
   void glossy() override;
+  void gather_in_mirrors() override;
   void transmission() override;
+  void gather_behind_glass() override;
   void rsm_upsample() override;
   void fog() override;
   void compose(float share) override;
@@ -283,10 +182,22 @@ class FramePassesVulkan final : public FramePasses {
   }
   void look_up(const char* name, const IrradianceField& field, const Buffer& queries,
                std::uint32_t count, CorrectionUse use, const Buffer& irradiance);
-  /// Some pixels of the band, whose light is gathered at a time.
+  /// Surfaces that gather light, one for each pixel of the band, and where the light goes.
+  struct GatheringSurfaces {
+    LitPointArray points;
+    PixelSurfaceArray surfaces;
+    std::uint32_t rays_per_pixel;
+    bool guided;
+    Vec3Array known;  ///< Irradiance from lookups; read where `excess` is there.
+    Vec3Array irradiance;
+    FloatArray variance;
+    Vec3Array excess;  ///< Address 0: none is split off.
+  };
+  /// Some of them, whose light is gathered at a time.
   struct GatheredPixels {
-    std::uint32_t first, count, rays_per_pixel;
-    std::uint32_t rays() const { return count * rays_per_pixel; }
+    GatheringSurfaces all;
+    std::uint32_t first, count;
+    std::uint32_t rays() const { return count * all.rays_per_pixel; }
   };
   /// Makes room for the gathers of so many pixels, which have so many rays.
   void reserve_gather(std::size_t pixels, std::size_t rays);
@@ -298,6 +209,10 @@ class FramePassesVulkan final : public FramePasses {
   void draw_gathers(const GatheredPixels& pixels);
   void draw_secondary_gathers(const GatheredPixels& pixels, int volumes, int depth);
   void sum_gathers(const GatheredPixels& pixels);
+  /// Gathers the light of the band's surfaces.
+  void gather_light(const GatheringSurfaces& surfaces);
+  void gather_shown(ShownBaseArray bases, const Buffer& looked_up, Vec3Array irradiance,
+                    FloatArray variance, Vec3Array excess);
   /// Lights the coats of the rows around the band, which see_around_band() has filled in, by rays;
   /// see Glossy::reflect. `sky`: see reflect_band(). Returns whether there are any rays.
   bool trace_coats(const Band& around, CoatKind kind, const Buffer& sky);
@@ -318,9 +233,10 @@ class FramePassesVulkan final : public FramePasses {
   void follow_paths(std::uint32_t paths, std::uint32_t bounce, std::uint32_t first_index,
                     std::uint32_t salt);
   void reuse_coat_rays(const Band& around, const Buffer& sky, std::uint32_t keeps);
-  /// kKeepsMirrored and kKeepsMirroredEmitters, where that light is filtered.
+  /// kKeepsMirrored, kKeepsMirroredBases and kGathersInMirrors, where that light is filtered.
   std::uint32_t mirrored_light_kept() const;
-  void keep_mirrored_emitters(Recorder& to, std::uint32_t paths, const PathBuffers& from);
+  std::uint64_t first_of_band() const;
+  void keep_mirrored_bases(Recorder& to, std::uint32_t paths, const PathBuffers& from);
   /// Adds the light of sources behind rough surfaces, see Glossy::sample_lights_behind: of pixels,
   /// or of the paths in a list.
   void sample_lights_behind(Recorder& to, const DevicePixels& seen, std::uint32_t count, uint salt,
@@ -336,6 +252,9 @@ class FramePassesVulkan final : public FramePasses {
                    std::uint32_t first_index, std::uint32_t salt);
   void keep_through();
   void denoise_coats(const DenoiseViewOnDevice& view);
+  void denoise_gathered(Recorder& to, const DenoiseViewOnDevice& view,
+                        const NoisyLightOnDevice& light, Vec3Array excess, Vec3Array filtered);
+  void denoise_mirrored_bases(Recorder& to, DenoiseViewOnDevice view);
   void denoise_through(const DenoiseViewOnDevice& view, const ShownPixels& shown, float share);
   void upload_before();
   void begin_motion(std::size_t pixels);
@@ -374,8 +293,8 @@ class FramePassesVulkan final : public FramePasses {
   std::uint32_t path_seed_ = 0;  // seed of the paths' random numbers
   bool splits_paths_ = false;    // paths split, with reflected branches in FrameMemory::forks
   bool samples_behind_ = false;  // there may be lights behind rough surfaces to sample
-  bool keeps_mirrored_emitters_ = false;
-  bool keeps_behind_ = false;  // light of the first opaque surfaces behind glass is stored apart
+  uint keeps_in_mirrors_ = 0;    // mirrored_light_kept() while coats' paths are traced
+  bool keeps_behind_ = false;    // light of the first opaque surfaces behind glass is stored apart
 };
 
 }  // namespace lambent

@@ -15,40 +15,6 @@ std::uint32_t FramePassesVulkan::emitter_draws() const {
   return draws ? static_cast<std::uint32_t>(request_->settings.emissive_samples) : 0;
 }
 
-/// Makes room for the light of what mirrors show, of so many pixels.
-void FramePassesVulkan::make_room_for_mirrors(std::size_t pixels) {
-  FilteredBuffers& f = memory_.filtered;
-  FilteredPixelsRecord& r = f.record;
-  const auto room = [&](std::size_t count, std::size_t bytes, Buffer& buffer) {
-    buffer.reserve(device_, count * bytes, "pixels to filter");
-    return buffer.address();
-  };
-  const std::size_t mirrored = filters_mirrored_light(*request_) ? pixels : 0;
-  r.mirrored.address = room(mirrored, sizeof(vec3), f.mirrored);
-  r.mirrored_albedo.address = room(mirrored, sizeof(vec3), f.mirrored_albedo);
-  r.mirrored_positions_ws.address = room(mirrored, sizeof(vec3), f.mirrored_positions_ws);
-  r.mirrored_normals_ws.address = room(mirrored, sizeof(vec3), f.mirrored_normals_ws);
-  r.mirrored_depths.address = room(mirrored, sizeof(float), f.mirrored_depths);
-  r.mirrored_lobes.address = room(mirrored, sizeof(LobeGuide), f.mirrored_lobes);
-  r.filtered_mirrored.address = room(mirrored, sizeof(vec3), f.filtered_mirrored);
-  const std::size_t lit_in_mirrors =
-      (mirrored_light_kept() & kKeepsMirroredEmitters) != 0u ? pixels : 0;
-  r.mirrored_emitters.address = room(lit_in_mirrors, sizeof(vec3), f.mirrored_emitters);
-  r.mirrored_emitter_variance.address =
-      room(lit_in_mirrors, sizeof(float), f.mirrored_emitter_variance);
-  r.mirrored_emitter_levels.address =
-      room(lit_in_mirrors, sizeof(float), f.mirrored_emitter_levels);
-  r.mirrored_emitter_albedo.address = room(lit_in_mirrors, sizeof(vec3), f.mirrored_emitter_albedo);
-  r.mirrored_emitter_positions_ws.address =
-      room(lit_in_mirrors, sizeof(vec3), f.mirrored_emitter_positions_ws);
-  r.mirrored_emitter_normals_ws.address =
-      room(lit_in_mirrors, sizeof(vec3), f.mirrored_emitter_normals_ws);
-  r.mirrored_emitter_depths.address =
-      room(lit_in_mirrors, sizeof(float), f.mirrored_emitter_depths);
-  r.filtered_mirrored_emitters.address =
-      room(lit_in_mirrors, sizeof(vec3), f.filtered_mirrored_emitters);
-}
-
 /// Makes room for the light to be filtered, and writes the addresses for kernels.
 void FramePassesVulkan::begin_filter() {
   const FrameSettings& settings = request_->settings;
@@ -141,28 +107,12 @@ void FramePassesVulkan::keep_pixels() {
   if (filters_through(*request_)) keep_through();
 }
 
-/// Stores what the coats that the band's mirrors show reflect.
-void FramePassesVulkan::keep_mirrored() {
-  const std::uint64_t before =
-      static_cast<std::uint64_t>(band_.first_row - rows_around_band().first_row) *
-      static_cast<std::uint64_t>(request_->settings.width);
-  add("compose", [this, before](Recorder& to) {
-    const glm::mat4& view = request_->camera.world_from_view;
-    const KeepMirroredArguments arguments = {
-        {memory_.points.address()},
-        {memory_.surfaces.address()},
-        {memory_.mirrored.address() + before * sizeof(MirroredCoat)},
-        {memory_.mirrored_emitters.address() + before * sizeof(MirroredEmitters)},
-        {memory_.pixel_fog.address()},
-        {memory_.filtered.addresses.address()},
-        vec3(view[3]),
-        normalize(vec3(view[2])),
-        first_traced_pixel(),
-        pixels_,
-        has_fog(*request_) ? 1u : 0u,
-        reflected_draws()};
-    to.run(kernels_.keep_mirrored, arguments, pixels_);
-  });
+/// Filters gathered light, and adds its excess.
+void FramePassesVulkan::denoise_gathered(Recorder& to, const DenoiseViewOnDevice& view,
+                                         const NoisyLightOnDevice& light, Vec3Array excess,
+                                         Vec3Array filtered) {
+  memory_.denoiser.record(to, view, light, {}, filtered);
+  memory_.denoiser.record(to, view, {excess, filtered}, geometric_denoising(), filtered, true);
 }
 
 /// Filters what coats and clearcoats reflect from rays, and highlights of emitters.
@@ -194,17 +144,7 @@ void FramePassesVulkan::denoise_coats(const DenoiseViewOnDevice& view) {
       memory_.denoiser.record(to, of_images, {r.mirrored}, mirrored_denoising(),
                               r.filtered_mirrored);
     }
-    if ((mirrored_light_kept() & kKeepsMirroredEmitters) != 0u) {
-      DenoiseViewOnDevice of_shown = view;
-      of_shown.positions_ws = r.mirrored_emitter_positions_ws;
-      of_shown.normals_ws = r.mirrored_emitter_normals_ws;
-      of_shown.depths = r.mirrored_emitter_depths;
-      const FloatArray variance =
-          reflected_draws() > 1 ? r.mirrored_emitter_variance : FloatArray{};
-      memory_.denoiser.record(to, of_shown,
-                              {r.mirrored_emitters, {}, variance, r.mirrored_emitter_levels},
-                              emitter_denoising(), r.filtered_mirrored_emitters);
-    }
+    denoise_mirrored_bases(to, view);
     if (emitter_draws() == 0) return;
     of_lobes.lobes = r.highlight_lobes;
     memory_.denoiser.record(to, of_lobes, {r.highlights}, emitter_denoising(),
@@ -232,12 +172,10 @@ void FramePassesVulkan::denoise(float share) {
   };
   if (gathered) {
     add("denoise", [=, this, &r](Recorder& to) {
-      memory_.denoiser.record(
+      denoise_gathered(
           to, view,
-          {r.gathered, r.looked_up, variance(settings.gather_rays > 1, r.gathered_variance)}, {},
-          r.filtered_gathered);
-      memory_.denoiser.record(to, view, {r.excess, r.filtered_gathered}, geometric_denoising(),
-                              r.filtered_gathered, true);
+          {r.gathered, r.looked_up, variance(settings.gather_rays > 1, r.gathered_variance)},
+          r.excess, r.filtered_gathered);
     });
   }
   if (lit) {
@@ -249,7 +187,7 @@ void FramePassesVulkan::denoise(float share) {
     });
   }
   if (coats) denoise_coats(by_shading);
-  const uint kept = mirrored_light_kept() & kKeepsMirroredEmitters;
+  const uint kept = mirrored_light_kept();
   add("denoise", [=, this](Recorder& to) {
     const AddFilteredArguments arguments = {{memory_.filtered.addresses.address()},
                                             {memory_.layers.address()},
@@ -261,7 +199,9 @@ void FramePassesVulkan::denoise(float share) {
                                             coats ? 1u : 0u,
                                             filters_clearcoats(*request_) ? 1u : 0u,
                                             filters_mirrored_light(*request_) ? 1u : 0u,
-                                            kept != 0u ? 1u : 0u};
+                                            (kept & kKeepsMirroredBases) != 0u ? 1u : 0u,
+                                            (kept & kGathersInMirrors) != 0u ? 1u : 0u,
+                                            0u};
     to.run(kernels_.add_filtered, arguments, static_cast<std::uint32_t>(shown.count));
   });
   if (through) denoise_through(by_shading, shown, share);

@@ -96,34 +96,40 @@ void keep_mirrored(const KeptBand& band, const CameraRecord& camera, std::size_t
   });
 }
 
-/// Stores the light of emitters on the surfaces that a band's mirrors show. `pixels`: the number of
-/// traced pixels; 0: that light is not filtered.
-void keep_mirrored_emitters(const KeptBand& band, const CameraRecord& camera, std::size_t pixels,
-                            bool has_variance, MirroredEmitterPixels& kept) {
+/// Stores the surfaces that a band's mirrors show, and their light. `pixels`: the number of traced
+/// pixels; 0: that light is not filtered.
+void keep_mirrored_bases(const KeptBand& band, const FrameRequest& request, std::size_t pixels,
+                         MirroredBasePixels& kept) {
   const GBuffer& gbuffer = band.light.gbuffer;
+  const ShownGather* gather = band.light.in_mirrors;
+  const bool has_variance = request.settings.reflected_emissive_samples > 1;
   kept.resize(pixels, has_variance);
+  kept.gather.resize(gather != nullptr ? pixels : 0, shown_gather_rays(request.settings) > 1);
   if (pixels == 0) return;
+  const CameraRecord camera = camera_record(request.camera, 1, 1);
   parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t pixel = band.first + i;
-      kept.albedo[pixel] = vec3(0.0f);
+      kept.emitter_albedo[pixel] = vec3(0.0f);
+      if (gather != nullptr) kept.gather.albedo[pixel] = vec3(0.0f);
       if (gbuffer.skips(i)) continue;
-      kept.depths[pixel] = kept.levels[pixel] = 0.0f;
-      kept.light[pixel] = vec3(0.0f);
-      if (has_variance) kept.variance[pixel] = 0.0f;
-      const bool any = gbuffer.hit[i] != 0 && !band.light.coats->mirrored_emitters.empty();
-      if (!any || band.light.coats->mirrored_emitters[i].shown == 0u) continue;
-      const MirroredEmitters& emitters = band.light.coats->mirrored_emitters[i];
+      kept.depths[pixel] = kept.emitter_levels[pixel] = 0.0f;
+      kept.emitters[pixel] = vec3(0.0f);
+      if (has_variance) kept.emitter_variance[pixel] = 0.0f;
+      const bool any = gbuffer.hit[i] != 0 && !band.light.coats->mirrored_bases.empty();
+      if (!any || band.light.coats->mirrored_bases[i].shown == 0u) continue;
+      const ShownBase& base = band.light.coats->mirrored_bases[i];
       const vec3& mirror_ws = gbuffer.surfaces[i].position_ws;
-      kept.depths[pixel] =
-          view_depth(camera, mirror_ws) + distance(mirror_ws, emitters.position_ws);
-      kept.positions_ws[pixel] = emitters.position_ws;
-      kept.normals_ws[pixel] = emitters.normal_ws;
-      kept.light[pixel] = emitters.light;
-      kept.levels[pixel] = emitters.level;
-      if (has_variance) kept.variance[pixel] = emitters.variance;
-      kept.albedo[pixel] = shown_weight(gbuffer, band.light.fog, i) * emitters.albedo *
-                           band.light.coats->mirrored[i].mirror_share;
+      kept.depths[pixel] = view_depth(camera, mirror_ws) + distance(mirror_ws, base.position_ws);
+      kept.positions_ws[pixel] = base.position_ws;
+      kept.normals_ws[pixel] = base.normal_ws;
+      kept.emitters[pixel] = base.light;
+      kept.emitter_levels[pixel] = base.level;
+      if (has_variance) kept.emitter_variance[pixel] = base.variance;
+      const vec3 weight =
+          shown_weight(gbuffer, band.light.fog, i) * band.light.coats->mirrored[i].mirror_share;
+      kept.emitter_albedo[pixel] = weight * base.emitter_albedo;
+      if (gather != nullptr) kept.gather.keep(*gather, base, weight, i, pixel);
     }
   });
 }
@@ -189,14 +195,14 @@ void keep_highlights(const BandToFilter& light, std::size_t first, std::size_t c
 
 }  // namespace
 
-void MirroredEmitterPixels::resize(std::size_t pixels, bool has_variance) {
+void MirroredBasePixels::resize(std::size_t pixels, bool has_variance) {
   positions_ws.resize(pixels);
   normals_ws.resize(pixels);
   depths.resize(pixels);
-  light.resize(pixels);
-  variance.resize(has_variance ? pixels : 0);
-  levels.resize(pixels);
-  albedo.resize(pixels);
+  emitters.resize(pixels);
+  emitter_variance.resize(has_variance ? pixels : 0);
+  emitter_levels.resize(pixels);
+  emitter_albedo.resize(pixels);
 }
 
 void FilteredCoats::resize(std::size_t pixels, bool has_variance) {
@@ -220,15 +226,15 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
   keep_all_coats({light, first}, count, pixels);
   const std::size_t mirrored = filters_mirrored_light(request) ? count : 0;
   keep_mirrored({light, first}, camera, mirrored, pixels);
-  keep_mirrored_emitters({light, first}, camera, mirrored,
-                         request.settings.reflected_emissive_samples > 1, pixels.mirrored_emitters);
+  keep_mirrored_bases({light, first}, request, mirrored, pixels.mirrored_bases);
   if (emitters) {
     keep_highlights(light, first, count, pixels);
   } else {
     pixels.highlights.clear();
   }
   if (light.transmitted != nullptr) {
-    keep_through({gbuffer, *light.transmitted, light.fog, first}, pixels.through);
+    keep_through({gbuffer, *light.transmitted, light.behind_glass, light.fog, first},
+                 pixels.through);
   } else {
     pixels.through.clear();
   }

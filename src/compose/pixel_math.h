@@ -83,19 +83,32 @@ LAMBENT_FN float filtered_variance(FilteredEmitter emitter, float variance) {
   return emitter.scale * (emitter.scale * variance);
 }
 
-/// The light of emitters where a path from a pixel's mirror has hit a surface. `variance`: see
-/// filtered_variance().
-LAMBENT_FN MirroredEmitters mirrored_emitters(vec3 position_ws, vec3 normal_ws,
-                                              FilteredEmitter emitter, float variance,
-                                              CoatPath path) {
-  MirroredEmitters mirrored = {position_ws,
-                               emitter.level,
-                               normal_ws,
-                               filtered_variance(emitter, variance),
-                               emitter.light,
-                               1u,
-                               path.throughput * emitter.albedo};
+/// The surface that a path from a pixel has hit, without the light of emitters. `viewer_distance`:
+/// length of the path's last segment [m]. `gathers`: rays gather its light.
+LAMBENT_FN ShownBase shown_base(vec3 position_ws, vec3 normal_ws, vec3 geometric_normal_ws,
+                                float gi_share, Reflectance surface, vec3 to_viewer_ws,
+                                float viewer_distance, CoatPath path, bool gathers) {
+  ShownBase mirrored = no_shown_base();
+  mirrored.position_ws = position_ws;
+  mirrored.normal_ws = normal_ws;
+  mirrored.shown = 1u;
+  mirrored.gi_share = gi_share;
+  mirrored.geometric_normal_ws = geometric_normal_ws;
+  mirrored.viewer_distance = viewer_distance;
+  mirrored.to_viewer_ws = to_viewer_ws;
+  if (!gathers || gi_share <= 0.0f) return mirrored;
+  mirrored.indirect_albedo =
+      path.throughput * reflected_indirect(surface, dot(normal_ws, to_viewer_ws), vec3(1.0f));
   return mirrored;
+}
+
+/// Adds the light of emitters to that record. `variance`: see filtered_variance().
+LAMBENT_FN void add_emitters(FilteredEmitter emitter, float variance, CoatPath path,
+                             LAMBENT_INOUT(ShownBase) mirrored) {
+  mirrored.level = emitter.level;
+  mirrored.variance = filtered_variance(emitter, variance);
+  mirrored.light = emitter.light;
+  mirrored.emitter_albedo = path.throughput * emitter.albedo;
 }
 
 /// FilteredCoats::variance of filtered light of a coat.

@@ -42,7 +42,7 @@ const uint kStageOwnMirror = 2u;
 /// is stored in CoatRay::mirrored.
 const uint kStageAtMirroredCoat = 3u;
 /// It left the pixel's mirror, and sharp coats of surfaces without a base alone have reflected it
-/// since. Where it ends, MirroredEmitters are stored, as of the two stages above.
+/// since. Where it ends, a ShownBase is stored, as of the two stages above.
 const uint kStageFurtherMirror = 4u;
 /// It came through surfaces alone. Nothing is stored apart. Where one is rough, it samples lights
 /// behind it.
@@ -114,23 +114,33 @@ LAMBENT_FN MirroredCoat no_mirrored_coat() {
   return none;
 }
 
-/// The diffuse light of emitters on the opaque surface that a pixel's mirror shows, in other
-/// mirrors or not. Few samples find it: it is filtered over that surface, like the light of
-/// surfaces that the camera sees.
-struct MirroredEmitters {
-  vec3 position_ws;  ///< Of the surface.
-  float level;       ///< FilteredEmitter::level.
-  vec3 normal_ws;    ///< Of the surface.
-  float variance;    ///< Of the luminance of `light`.
-  vec3 light;        ///< FilteredEmitter::light [W/(m^2 sr)].
-  uint shown;        ///< 1: the mirror shows such a surface; 0: it does not.
-  vec3 albedo;       ///< Factor from the filtered light to the radiance of the pixel's ray.
+/// The first opaque surface with a base that a pixel's mirror shows, in other mirrors or not, or
+/// the first opaque surface that it shows behind glass. Diffuse light from emitters there has
+/// noise, as has that which rays from it gather: both are filtered over that surface, like the
+/// light of surfaces that the camera sees. Behind glass, emitters' light is stored in SeenThrough
+/// instead.
+struct ShownBase {
+  vec3 position_ws;
+  float level;  ///< FilteredEmitter::level.
+  vec3 normal_ws;
+  float variance;       ///< Of the luminance of `light`.
+  vec3 light;           ///< Of emitters: FilteredEmitter::light [W/(m^2 sr)].
+  uint shown;           ///< 1: the pixel shows such a surface; 0: it does not.
+  vec3 emitter_albedo;  ///< Factor from filtered `light` to the radiance of the pixel's ray.
+  float gi_share;       ///< See Surface.
+  vec3 geometric_normal_ws;
+  float viewer_distance;  ///< Length of the last segment of the pixel's path to it [m].
+  vec3 to_viewer_ws;      ///< Unit; back along that segment.
+  /// Factor from the irradiance that it gathers to the radiance of the pixel's ray [1/sr]; 0: it
+  /// gathers none.
+  vec3 indirect_albedo;
 };
-LAMBENT_DEVICE_ARRAY(MirroredEmittersArray, MirroredEmitters, 4)
+LAMBENT_DEVICE_ARRAY(ShownBaseArray, ShownBase, 4)
 
-/// The record of a pixel whose mirror shows no such surface.
-LAMBENT_FN MirroredEmitters no_mirrored_emitters() {
-  MirroredEmitters none = {vec3(0.0f), 0.0f, vec3(0.0f), 0.0f, vec3(0.0f), 0u, vec3(0.0f)};
+/// The record of a pixel that shows no such surface.
+LAMBENT_FN ShownBase no_shown_base() {
+  ShownBase none = {vec3(0.0f), 0.0f, vec3(0.0f), 0.0f, vec3(0.0f), 0u,
+                    vec3(0.0f), 0.0f, vec3(0.0f), 0.0f, vec3(0.0f), vec3(0.0f)};
   return none;
 }
 

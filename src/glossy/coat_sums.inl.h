@@ -125,7 +125,7 @@ LAMBENT_REAL_FN void add_coat_ray(CoatReceiver at, CoatLobe from, CoatRay ray, R
   Real cosine = dot(at.lobe.geometric_normal_ws, from.geometric_normal_ws);
   Real off_plane = dot(at.lobe.geometric_normal_ws, from.position_ws - at.lobe.position_ws);
   // Rays of mirrors do not include what is stored in CoatRay::mirrored, nor those of sharp ones
-  // what is in MirroredEmitters
+  // what is in ShownBase
   Real here = select(at.lobe.squared_alpha > kMirrorAlpha * kMirrorAlpha, 1.0f, 0.0f) +
               select(at.lobe.squared_alpha > kSharpMirrorAlpha * kSharpMirrorAlpha, 1.0f, 0.0f);
   Real there = select(from.squared_alpha > kMirrorAlpha * kMirrorAlpha, 1.0f, 0.0f) +

@@ -28,9 +28,15 @@ const int kReuse = 2;
 // surface, so that neighbours' rays do not help.
 const float kEveryPixelRoughness = 0.5f;
 
-/// Most surfaces that a path hits, counting those that it passes through. The field supplies what
-/// the coat of the last one reflects. Mirrors that face each other show a blank wall there.
+/// Most surfaces that a path hits before it ends at an opaque one, counting those that it passes
+/// through. The field supplies what the coat of the last one reflects. Mirrors that face each other
+/// show a blank wall there.
 const uint kMaxPathVertices = 12u;
+
+/// Most surfaces that a path hits. Beyond kMaxPathVertices it goes on in glass alone: light that is
+/// reflected within a bottle's rim or a cut stone leaves it after many of them, and no other light
+/// stands for it.
+const uint kMaxGlassVertices = 48u;
 
 /// A path goes on from a coat only where the largest channel of its throughput would stay at least
 /// this.

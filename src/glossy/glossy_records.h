@@ -20,12 +20,13 @@ struct PathList {
 };
 
 // Bits of CoatReuseArguments::has; CoatRaysArguments::keeps has those of mirrors.
-const uint kReflectsSky = 1u;             ///< `sky` is added.
-const uint kFindsGuides = 2u;             ///< `guides` are written.
-const uint kKeepsMirrored = 4u;           ///< `mirrored` is brought up to date.
-const uint kKeepsOwn = 8u;                ///< `own` is written.
-const uint kOrthographic = 16u;           ///< The camera is orthographic.
-const uint kKeepsMirroredEmitters = 32u;  ///< MirroredEmitters are stored.
+const uint kReflectsSky = 1u;          ///< `sky` is added.
+const uint kFindsGuides = 2u;          ///< `guides` are written.
+const uint kKeepsMirrored = 4u;        ///< `mirrored` is brought up to date.
+const uint kKeepsOwn = 8u;             ///< `own` is written.
+const uint kOrthographic = 16u;        ///< The camera is orthographic.
+const uint kKeepsMirroredBases = 32u;  ///< A ShownBase is stored of each pixel.
+const uint kGathersInMirrors = 64u;    ///< These gather their light.
 
 /// Draws the specular rays of pixels.
 struct CoatRaysArguments {
@@ -39,11 +40,11 @@ struct CoatRaysArguments {
   uint rows;       ///< Every `rows`-th row has rays.
   uint sample_index;
   uint seed;
-  uint emitter_samples;        ///< Samples of the pixels' own direct light.
-  uint keeps;                  ///< kKeepsMirrored, kKeepsMirroredEmitters: of what mirrors show.
-  MirroredCoatArray mirrored;  ///< Written where kKeepsMirrored is set.
-  MirroredEmittersArray mirrored_emitters;  ///< Written where kKeepsMirroredEmitters is set.
-  OwnRayLightArray own;                     ///< Read where `ray` is not 0.
+  uint emitter_samples;           ///< Samples of the pixels' own direct light.
+  uint keeps;                     ///< kKeepsMirrored, kKeepsMirroredBases: of what mirrors show.
+  MirroredCoatArray mirrored;     ///< Written where kKeepsMirrored is set.
+  ShownBaseArray mirrored_bases;  ///< Written where kKeepsMirroredBases is set.
+  OwnRayLightArray own;           ///< Read where `ray` is not 0.
   uint ray;  ///< Number of the rays; from 1 on, only pixels with needs_further_rays() have one.
   uint padding;
 };

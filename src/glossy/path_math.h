@@ -20,7 +20,7 @@ LAMBENT_BEGIN
 LAMBENT_FN CoatShares further_coat_shares(Transmission through, Reflectance surface, float n_dot_v,
                                           CoatPath path, uint bounce) {
   CoatShares shares = {0.0f, 0.0f};
-  if (bounce >= kMaxPathVertices) return shares;
+  if (bounce >= (is_transmissive(through) ? kMaxGlassVertices : kMaxPathVertices)) return shares;
   if (path.stage == kStageThroughGlass || is_transmissive(through)) {
     shares.coat = traced_coat_share(surface);
     if (!is_transmissive(through) && has_clearcoat(surface.layers)) {
@@ -146,7 +146,7 @@ LAMBENT_FN void meet_mirrored_coat(Transmission through, Reflectance surface, Co
   path.stage = kStageAtMirroredCoat;
 }
 
-/// Whether a path's hit is the opaque surface that the pixel's mirror shows, for MirroredEmitters.
+/// Whether a path's hit is the opaque surface that the pixel's mirror shows, for ShownBase.
 /// Call it before the path goes on.
 LAMBENT_FN bool is_in_own_mirror(CoatPath path, Transmission through, Reflectance surface) {
   bool own = path.stage == kStageOwnMirror || path.stage == kStageAtMirroredCoat ||
@@ -289,7 +289,7 @@ LAMBENT_FN NextRay extend_through_glass(Transmission through, Reflectance coat, 
 /// the inside of a volume it is 1: extend_through_glass() decides on inner reflection.
 LAMBENT_FN float crossing_chance(Transmission through, Reflectance coat, float coat_share,
                                  float n_dot_v, uint bounce) {
-  if (bounce >= kMaxPathVertices || !is_transmissive(through)) return 0.0f;
+  if (bounce >= kMaxGlassVertices || !is_transmissive(through)) return 0.0f;
   return crossing_probability(passing_share(through, coat, n_dot_v),
                               coat_share * specular_albedo(coat, n_dot_v));
 }

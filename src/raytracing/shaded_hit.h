@@ -14,6 +14,8 @@ const uint kSurfaceMissed = 1u;  ///< The ray left the scene.
 const uint kSurfaceDiscounted = 2u;
 /// Lights behind the surface are sampled, see samples_lights_behind().
 const uint kSurfaceSamplesBehind = 4u;
+/// Indirect light of the surface's base is not looked up: rays gather it.
+const uint kSurfaceGathers = 16u;
 /// The pixel has no sample, see SampleRound: no ray was traced, and it shows nothing.
 const uint kSurfaceSkipped = 8u;
 

@@ -57,26 +57,50 @@ Scene room_with_plate(float roughness, bool facing = false) {
   return scene;
 }
 
+/// The room with a mirror, its lamp hidden from below, and shelves on the wall behind the camera.
+Scene room_with_shelves() {
+  Scene scene = room_with_plate(0.0f);
+  scenes::MeshBuilder builder;
+  builder.box({-0.8f, 2.5f, -0.8f}, {0.8f, 2.53f, 0.8f});
+  scenes::add_object(scene, builder.take("shade", 0));
+  for (const float height : {0.5f, 0.9f, 1.3f, 1.7f}) {
+    builder.box({-1.6f, height, 2.5f}, {1.6f, height + 0.04f, 2.9f});
+    scenes::add_object(scene, builder.take("shelf", 0));
+    for (int i = 0; i < 5; ++i) {
+      const glm::vec3 foot(-1.4f + 0.6f * static_cast<float>(i), height + 0.04f, 2.6f);
+      builder.box(foot, foot + glm::vec3(0.16f, 0.2f, 0.12f));
+      scenes::add_object(scene, builder.take("thing", 0));
+    }
+  }
+  return scene;
+}
+
 struct Pictures {
   LayeredImage ours, reference;
 };
 
-Pictures pictures_of(const test::Stage& stage, int side, int samples, int reference_samples,
-                     int updates = 8) {
+Pictures pictures_of(const test::Stage& stage, FrameSettings frame, int reference_samples,
+                     int updates) {
   FieldSettings settings;
   settings.probe_count = {7, 5, 9};
   settings.rays_per_probe = 144;
   const IrradianceField field = test::make_field(stage, settings, updates);
-  FrameSettings frame;
-  frame.width = frame.height = side;
-  frame.samples = samples;
   ReferenceSettings by;
-  by.width = by.height = side;
+  by.width = frame.width;
+  by.height = frame.height;
   by.samples = reference_samples;
   by.layer_errors = true;
   const Camera& camera = stage.scene.cameras[0];
   return {Renderer(stage.world, {.field = &field}).render(camera, frame).value().image,
           render_reference(stage.world, camera, by).image};
+}
+
+Pictures pictures_of(const test::Stage& stage, int side, int samples, int reference_samples,
+                     int updates = 8) {
+  FrameSettings frame;
+  frame.width = frame.height = side;
+  frame.samples = samples;
+  return pictures_of(stage, frame, reference_samples, updates);
 }
 
 Metrics glossy_metrics(const Pictures& pictures, int block) {
@@ -128,6 +152,20 @@ TEST(Reflections, ShowWhatIsOffTheScreenUnderAllBounces) {
     EXPECT_LE(metrics.mean_ratio, 1.035) << roughness;
     EXPECT_LE(rmse, roughness == 0.0f ? 0.03 : 0.08) << roughness;
   }
+}
+
+// In a mirror as well, what is smaller than the field's cells has its own light and shade.
+TEST(Reflections, ShowWhatThingsSmallerThanCellsGather) {
+  const test::Stage stage(room_with_shelves());
+  FrameSettings frame = quality_settings(Quality::high);
+  frame.width = frame.height = 48;
+  const Metrics metrics = glossy_metrics(pictures_of(stage, frame, 1024, 4), 8);
+  const double rmse = metrics.noise_corrected_relative_rmse.value_or(metrics.relative_rmse);
+  std::printf("shelves: mean ratio %.4f, relative RMSE %.4f\n", metrics.mean_ratio, rmse);
+  // Lookups alone: 1.024 and 0.064
+  EXPECT_GE(metrics.mean_ratio, 0.98);
+  EXPECT_LE(metrics.mean_ratio, 1.02);
+  EXPECT_LE(rmse, 0.055);
 }
 
 TEST(Reflections, OfMirrorsInMirrorsGoOn) {

@@ -11,119 +11,20 @@
 #include "lambent/world.h"
 #include "scenes/builtin.h"
 #include "support/bright_skies.h"
-#include "support/floor_behind_a_pane.h"
 #include "support/floor_under_a_pane.h"
+#include "support/frame_twin.h"
 #include "support/hand_made.h"
-#include "support/lit_box.h"
-#include "support/vulkan_device.h"
-#include "support/wall_in_a_mirror.h"
 
 namespace lambent::frame_test {
 namespace {
 
-// The bar for pictures. Both sides draw the same random numbers; where a ray grazes an edge
-// or a random decision is as close as rounding, single pixels differ.
-constexpr double kTolerance = 0.01, kGrazing = 0.02;  // the latter for rays that graze surfaces
+using test::Frames;
+using test::Job;
+using test::kGrazing;
+using test::kTolerance;
+using test::relative_rmse;
 
-constexpr int kWidth = 48, kHeight = 32;
-
-struct Frames {
-  LayeredImage cpu, device;
-};
-
-/// Root mean square of the difference of a layer over its root mean square on the processor.
-double relative_rmse(const Frames& frames, const std::string& name) {
-  const Image& a = *frames.cpu.find(name);
-  const Image& b = *frames.device.find(name);
-  double difference = 0.0, whole = 0.0;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    const double d = static_cast<double>(a.pixels[i]) - b.pixels[i];
-    difference += d * d;
-    whole += static_cast<double>(a.pixels[i]) * a.pixels[i];
-  }
-  return whole > 0.0 ? std::sqrt(difference / whole) : std::sqrt(difference);
-}
-
-struct Job {
-  const char* scene;
-  FieldSettings field;
-  FrameSettings frame;
-  int updates = 2;
-  bool with_rsm = false;
-  std::vector<FogVolume> fog = {};
-  int lights = 0;  // that shine in place of the scene's, if any, and how many a pixel asks
-  int direct_lights = 0;
-  bool merge_maps = false;
-};
-
-/// The light of maps alone, and direct light in their sub-images.
-LayeredImage render_directly(const Scene& scene, const World& world, const Job& job) {
-  IndirectSources sources;
-  sources.rsm.emplace();
-  sources.rsm->resolution = 32;
-  sources.rsm->texels = 256;
-  sources.rsm->direct = true;
-  sources.rsm->direct_lights = job.direct_lights;
-  sources.rsm->merge_maps = job.merge_maps;
-  return Renderer(world, sources).render(scene.cameras.front(), job.frame).value().image;
-}
-
-LayeredImage render(const Scene& scene, const World& world, const Job& job) {
-  Expected<IrradianceField> field = IrradianceField::make(job.field, open_bounds(world));
-  for (int i = 0; i < job.updates; ++i) field->update(world);
-  RsmSettings maps;
-  maps.resolution = 64;
-  maps.texels = 256;
-  IndirectSources sources;
-  sources.field = &*field;
-  if (job.with_rsm) sources.rsm = maps;
-  return Renderer(world, sources).render(scene.cameras.front(), job.frame).value().image;
-}
-
-class Frame : public test::OnDevice {
- protected:
-  static Frames render_both(const Job& job) {
-    Scene scene = *scenes::make(job.scene);
-    scene.fog = job.fog;
-    if (job.lights > 0) {
-      scene.lights = test::lit_box(job.scene, job.lights).lights;
-      const World here(scene), there(scene, shared_device());
-      return {render_directly(scene, here, job), render_directly(scene, there, job)};
-    }
-    return render_both(scene, job);
-  }
-
-  static Frames render_both(const Scene& scene, const Job& job) {
-    const World here(scene), there(scene, shared_device());
-    return {render(scene, here, job), render(scene, there, job)};
-  }
-
-  static Job small(const char* scene) {
-    Job job{scene, {}, {}};
-    job.field.probe_count = {4, 4, 4};
-    job.field.rays_per_probe = 32;
-    job.frame.width = kWidth;
-    job.frame.height = kHeight;
-    return job;
-  }
-
-  /// Few rows in the middle of a picture that is higher than what their filter reads.
-  static Job filtered_rows(const char* scene) {
-    Job job = small(scene);
-    job.frame.width = 20;
-    job.frame.height = 150;
-    job.frame.first_row = 70;
-    job.frame.rows = 9;
-    job.frame.denoise = true;
-    return job;
-  }
-
-  static void expect_alike(const Frames& frames) {
-    for (const Layer& layer : frames.cpu.layers) {
-      EXPECT_LE(relative_rmse(frames, layer.name), kTolerance) << "layer " << layer.name;
-    }
-  }
-};
+class Frame : public test::FrameTwin {};
 
 TEST_F(Frame, OfCornellIsTheSame) {
   expect_alike(render_both(small("cornell")));
@@ -271,81 +172,6 @@ TEST_F(Frame, WithGatheredLightIsTheSame) {
   job.frame.guides_gathers = false;  // which the device's rays were, too
   EXPECT_NE(guided.device.find("indirect")->pixels,
             render_both(job).device.find("indirect")->pixels);
-}
-
-TEST_F(Frame, WithFilteredLightIsTheSame) {
-  // Of one ray a pixel, whose variance is estimated, and of several, whose variance is measured
-  for (const int rays : {1, 4}) {
-    Job job = small("cornell");
-    job.frame.width = 32, job.frame.height = 24;
-    job.frame.gather_rays = rays;
-    job.frame.denoise = true;
-    expect_alike(render_both(job));
-  }
-}
-
-// Coats, with and without a field's gather beside them, lamps' highlights, and what mirrors show.
-TEST_F(Frame, WithFilteredReflectionsIsTheSame) {
-  for (const int rows : {1, 2}) {
-    Job job = small("spheres");
-    job.frame.glossy_rows = rows;
-    job.frame.gather_rays = rows - 1;
-    job.frame.samples = 2;
-    job.frame.denoise = true;
-    EXPECT_LE(relative_rmse(render_both(job), "glossy"), kGrazing) << rows;
-  }
-  Job job = small("");
-  job.frame.denoise = true;
-  EXPECT_LE(relative_rmse(render_both(test::wall_in_a_mirror(0, 0.5f), job), "glossy"), kTolerance);
-  Scene scene = test::floor_under_a_pane();
-  scene.materials[0].clearcoat = 1.0f;
-  scene.materials[0].clearcoat_roughness = 0.4f;
-  // Over a glossy base, and over one so rough that rays light the clearcoat alone
-  for (const float roughness : {scene.materials[0].roughness, 1.0f}) {
-    scene.materials[0].roughness = roughness;
-    const Frames frames = render_both(scene, job);
-    EXPECT_LE(relative_rmse(frames, "glossy"), kTolerance) << roughness;
-    Job noisy = job;
-    noisy.frame.denoise = false;
-    // Filtering makes a difference, the less the more of the light is the field's
-    EXPECT_GT(relative_rmse({frames.cpu, render_both(scene, noisy).device}, "glossy"),
-              1.5 * kTolerance)
-        << roughness;
-  }
-}
-
-// What panes show: of matte, glossy and lacquered floors, sharp and blurred, whole and in part.
-TEST_F(Frame, WithFilteredLightBehindGlassIsTheSame) {
-  Job job = small("");
-  job.frame.denoise = true;
-  job.field.rays_per_probe = 64;  // of 32, one that crosses glass on one side alone is 1.4 %
-  for (const float roughness : {0.0f, 0.4f}) {
-    for (const Material& floor : test::floors_to_show()) {
-      for (const bool slab : {false, true}) {
-        Scene scene = test::floor_behind_a_pane(floor, roughness, slab);
-        if (slab) scene.environment = test::checkered_sky();
-        const Light lamp = test::point_light(glm::vec3(0.5f), {0.3f, 1.0f, -0.5f});
-        if (!slab) scene.lights.push_back(lamp);
-        const Frames frames = render_both(scene, job);
-        EXPECT_LE(relative_rmse(frames, "transmission"), kTolerance) << roughness << slab;
-        EXPECT_LE(relative_rmse(frames, ""), kTolerance) << roughness << slab;
-      }
-    }
-    job.frame.emissive_samples = job.frame.reflected_emissive_samples = 1;
-    job.frame.first_row = 9;
-    job.frame.rows = 5;
-  }
-}
-
-TEST_F(Frame, WithRowsOfFilteredReflectionsIsTheSame) {
-  Job job = filtered_rows("");
-  EXPECT_LE(relative_rmse(render_both(test::floor_under_a_pane(), job), "glossy"), kTolerance);
-}
-
-TEST_F(Frame, WithRowsOfFilteredLightIsTheSame) {
-  Job job = filtered_rows("cornell");
-  job.frame.gather_rays = 1;
-  expect_alike(render_both(job));
 }
 
 TEST_F(Frame, WithMapsIsTheSame) {

@@ -112,7 +112,7 @@ TEST(GlassChoice, OfFewSamplesIsInProportion) {
 // Each choice in favour of faint reflections makes the paths that cross rarer and heavier.
 TEST(GlassChoice, PathsThroughManySurfacesWeighLessThanTwice) {
   float weight = 1.0f;
-  for (uint bounce = 1; bounce <= kMaxPathVertices; ++bounce) {
+  for (uint bounce = 1; bounce <= kMaxGlassVertices; ++bounce) {
     const float least = glass_choice(1, pack_path_step(bounce, 0, 4), kSeed).least_chance;
     EXPECT_GT(least, 0.0f);
     weight /= 1.0f - least;

@@ -62,10 +62,10 @@ void FramePassesVulkan::light_gathers(const GatherBuffers& gathers, std::uint32_
 void FramePassesVulkan::draw_gathers(const GatheredPixels& pixels) {
   const FrameSettings& settings = request_->settings;
   const GuideSize size =
-      guides_gathers(*request_) ? guide_.size : GuideSize{settings.width, settings.height, 0, 0};
+      pixels.all.guided ? guide_.size : GuideSize{settings.width, settings.height, 0, 0};
   add("gather", [=, this, &m = memory_](Recorder& to) {
-    const GatherRaysArguments drawn = {{m.points.address()},
-                                       {m.surfaces.address()},
+    const GatherRaysArguments drawn = {pixels.all.points,
+                                       pixels.all.surfaces,
                                        {m.gathers[0].rays.address()},
                                        {m.gathering_indices.address()},
                                        {m.guided_rays.address()},
@@ -76,7 +76,7 @@ void FramePassesVulkan::draw_gathers(const GatheredPixels& pixels) {
                                        pixels.first,
                                        pixels.count,
                                        first_pixel_,
-                                       pixels.rays_per_pixel,
+                                       pixels.all.rays_per_pixel,
                                        sample_,
                                        request_->settings.seed};
     to.run(kernels_.gather_rays, drawn, pixels.count);
@@ -100,7 +100,7 @@ void FramePassesVulkan::draw_secondary_gathers(const GatheredPixels& pixels, int
                                           {},
                                           volumes,
                                           pixels.rays(),
-                                          pixels.rays_per_pixel,
+                                          pixels.all.rays_per_pixel,
                                           gather_salt(sample_, depth),
                                           request_->settings.seed,
                                           0u};
@@ -109,7 +109,6 @@ void FramePassesVulkan::draw_secondary_gathers(const GatheredPixels& pixels, int
 }
 
 void FramePassesVulkan::sum_gathers(const GatheredPixels& pixels) {
-  const bool filters = request_->settings.denoise;
   add("gather", [=, this, &m = memory_](Recorder& to) {
     // From the last rays back to the first
     for (int depth = kMaxSecondaryRays; depth > 0; --depth) {
@@ -125,30 +124,23 @@ void FramePassesVulkan::sum_gathers(const GatheredPixels& pixels) {
       to.run(kernels_.secondary_light, replacing, pixels.rays());
       to.barrier();
     }
-    // Light to be filtered is stored with that of the other bands
-    const std::uint64_t at = filters ? first_traced_pixel() : 0;
-    const FilteredPixelsRecord& kept = m.filtered.record;
-    const Vec3Array gathered{filters ? kept.gathered.address + at * sizeof(vec3)
-                                     : m.irradiance.address()};
-    const FloatArray variance{filters ? kept.gathered_variance.address + at * sizeof(float)
-                                      : m.gathered_variance.address()};
-    const Vec3Array excess{filters ? kept.excess.address + at * sizeof(vec3) : 0};
-    const GatherSumArguments summed = {{m.points.address()},
-                                       {m.surfaces.address()},
+    const GatheringSurfaces& all = pixels.all;
+    const GatherSumArguments summed = {all.points,
+                                       all.surfaces,
                                        {m.gathers[0].rays.address()},
                                        {m.guided_rays.address()},
                                        {m.gathering_weights.address()},
                                        {m.gathers[0].shaded.address()},
                                        {m.gathers[0].direct.address()},
                                        {m.gathers[0].field.address()},
-                                       gathered,
-                                       variance,
-                                       {m.irradiance.address()},
-                                       excess,
+                                       all.irradiance,
+                                       all.variance,
+                                       all.known,
+                                       all.excess,
                                        pixels.first,
                                        pixels.count,
-                                       pixels.rays_per_pixel,
-                                       filters ? 1u : 0u};
+                                       all.rays_per_pixel,
+                                       all.excess.address != 0 ? 1u : 0u};
     to.run(kernels_.gather_sum, summed, pixels.count);
   });
 }
@@ -165,25 +157,24 @@ void FramePassesVulkan::guide() {
 }
 
 /// Final gathering, some pixels at a time.
-void FramePassesVulkan::gather() {
+void FramePassesVulkan::gather_light(const GatheringSurfaces& surfaces) {
   const IrradianceField& field = *request_->sources.field;
-  const auto rays_per_pixel = static_cast<std::uint32_t>(request_->settings.gather_rays);
-  const std::uint32_t most = std::max(kGatherRays / rays_per_pixel, 1u);
+  const std::uint32_t most = std::max(kGatherRays / surfaces.rays_per_pixel, 1u);
   FrameMemory& m = memory_;
-  reserve_gather(most, static_cast<std::size_t>(most) * rays_per_pixel);
+  reserve_gather(most, static_cast<std::size_t>(most) * surfaces.rays_per_pixel);
   const std::vector<ProbeGrid> grids = still_grids(field.grids());
   reserve<ProbeGrid>(grids.size(), "grids", m.field_grids);
   vulkan::write<ProbeGrid>(device_, grids, m.field_grids);
   ShadeHitsSettings shading =
-      gathering_shading(request_->settings.gather_rays, field.settings().max_albedo, sample_,
-                        request_->settings.seed);
+      gathering_shading(static_cast<int>(surfaces.rays_per_pixel), field.settings().max_albedo,
+                        sample_, request_->settings.seed);
 
   for (std::uint32_t first = 0; first < pixels_; first += most) {
-    const GatheredPixels pixels{first, std::min(most, pixels_ - first), rays_per_pixel};
-    frame_->rays += sampled_pixels(first_pixel_ + first, pixels.count) * rays_per_pixel;
+    const GatheredPixels pixels{surfaces, first, std::min(most, pixels_ - first)};
     draw_gathers(pixels);
     shading.salt = sample_;
-    light_gathers(m.gathers[0], pixels.rays(), m.gathering_indices, rays_per_pixel, shading);
+    light_gathers(m.gathers[0], pixels.rays(), m.gathering_indices, surfaces.rays_per_pixel,
+                  shading);
     for (int depth = 1; depth <= kMaxSecondaryRays; ++depth) {
       draw_secondary_gathers(pixels, static_cast<int>(grids.size()), depth);
       look_up("gather", field, m.queries, pixels.rays(), CorrectionUse::picked,
@@ -195,6 +186,71 @@ void FramePassesVulkan::gather() {
             m.gathers[kMaxSecondaryRays].field);
     sum_gathers(pixels);
   }
+}
+
+void FramePassesVulkan::gather() {
+  FrameMemory& m = memory_;
+  const auto rays = static_cast<std::uint32_t>(request_->settings.gather_rays);
+  reserve<vec3>(pixels_, "irradiance", m.irradiance);
+  reserve<float>(pixels_, "variance", m.gathered_variance);
+  GatheringSurfaces pixels{{m.points.address()},
+                           {m.surfaces.address()},
+                           rays,
+                           guides_gathers(*request_),
+                           {m.irradiance.address()},
+                           {m.irradiance.address()},
+                           {m.gathered_variance.address()},
+                           {}};
+  if (request_->settings.denoise) {
+    // Light to be filtered is stored with that of the other bands
+    const FilteredPixelsRecord& kept = m.filtered.record;
+    const std::uint64_t at = first_traced_pixel();
+    pixels.irradiance = {kept.gathered.address + at * sizeof(vec3)};
+    pixels.variance = {kept.gathered_variance.address + at * sizeof(float)};
+    pixels.excess = {kept.excess.address + at * sizeof(vec3)};
+  }
+  frame_->rays += std::uint64_t{sampled_pixels(first_pixel_, pixels_)} * rays;
+  gather_light(pixels);
+}
+
+/// Gathers the light of the surfaces `bases`, one for each pixel of the band; see
+/// gather/shown_gather.cpp.
+void FramePassesVulkan::gather_shown(ShownBaseArray bases, const Buffer& looked_up,
+                                     Vec3Array irradiance, FloatArray variance, Vec3Array excess) {
+  FrameMemory& m = memory_;
+  reserve<LitPointRecord>(pixels_, "points that are shown", m.shown_points);
+  reserve<PixelSurfaceRecord>(pixels_, "surfaces that are shown", m.shown_surfaces);
+  reserve<QueryRecord>(pixels_, "queries", m.queries);
+  reserve<uint>(1, "number of points that are shown", m.shown_points_found);
+  add("gather", [=, this, &m](Recorder& to) {
+    to.fill(m.shown_points_found, 0u);
+    to.barrier();
+    const ShownPointsArguments found = {{m.surfaces.address()},
+                                        bases,
+                                        {m.shown_points.address()},
+                                        {m.shown_surfaces.address()},
+                                        {m.queries.address()},
+                                        {m.shown_points_found.address()},
+                                        pixels_,
+                                        0u};
+    to.run(kernels_.shown_points, found, pixels_);
+  });
+  run_steps();
+  uint points = 0;
+  vulkan::read(device_, m.shown_points_found, std::span(&points, 1));
+  if (points == 0) return;
+  look_up("gather", *request_->sources.field, m.queries, pixels_, pixel_correction(*request_),
+          looked_up);
+  const auto rays = static_cast<std::uint32_t>(shown_gather_rays(request_->settings));
+  frame_->rays += std::uint64_t{points} * rays;
+  gather_light({{m.shown_points.address()},
+                {m.shown_surfaces.address()},
+                rays,
+                /*guided=*/false,
+                {looked_up.address()},
+                irradiance,
+                variance,
+                excess});
 }
 
 }  // namespace lambent

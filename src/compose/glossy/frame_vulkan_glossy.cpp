@@ -29,31 +29,6 @@ bool FramePassesVulkan::filters_coats() const {
          has_coats(request_->world.scene());
 }
 
-std::uint32_t FramePassesVulkan::mirrored_light_kept() const {
-  if (!filters_mirrored_light(*request_)) return 0u;
-  return kKeepsMirrored | (reflected_draws() > 0 ? kKeepsMirroredEmitters : 0u);
-}
-
-/// Stores the light of emitters on what pixels' mirrors show apart, for paths in the list `from`.
-void FramePassesVulkan::keep_mirrored_emitters(Recorder& to, std::uint32_t paths,
-                                               const PathBuffers& from) {
-  FrameMemory& m = memory_;
-  const KeepMirroredEmittersArguments arguments = {{world_.scene().address()},
-                                                   {m.path_points.address()},
-                                                   {m.path_surfaces.address()},
-                                                   {from.paths.address()},
-                                                   {from.pixels.address()},
-                                                   {m.path_diffuse.address()},
-                                                   {m.path_specular.address()},
-                                                   {m.path_drawn.address()},
-                                                   {m.path_drawn_specular.address()},
-                                                   {m.path_drawn_squares.address()},
-                                                   {m.mirrored_emitters.address()},
-                                                   paths,
-                                                   reflected_draws()};
-  to.run(kernels_.keep_mirrored_emitters, arguments, paths);
-}
-
 void FramePassesVulkan::glossy() {
   light_clearcoats();
   if (traces_coats(*request_) && has_coats(request_->world.scene())) {
@@ -176,7 +151,7 @@ CoatRaysArguments FramePassesVulkan::coat_rays_of(std::uint32_t first, std::uint
           static_cast<uint>(settings.emissive_samples),
           0u,
           {m.mirrored.address()},
-          {m.mirrored_emitters.address()},
+          {m.mirrored_bases.address()},
           {m.own_rays.address()},
           0u,
           0u};
@@ -191,9 +166,9 @@ bool FramePassesVulkan::trace_coats(const Band& around, CoatKind kind, const Buf
   const std::uint32_t pixels = static_cast<std::uint32_t>(around.rows) * width;
   const std::uint32_t first_index = static_cast<std::uint32_t>(first_row) * width;
   reserve<MirroredCoat>(keeps != 0u ? pixels : 0, "coats in mirrors", memory_.mirrored);
-  keeps_mirrored_emitters_ = (keeps & kKeepsMirroredEmitters) != 0u;
-  reserve<MirroredEmitters>(keeps_mirrored_emitters_ ? pixels : 0, "emitters' light in mirrors",
-                            memory_.mirrored_emitters);
+  keeps_in_mirrors_ = keeps;
+  reserve<ShownBase>((keeps & kKeepsMirroredBases) != 0u ? pixels : 0, "surfaces in mirrors",
+                     memory_.mirrored_bases);
   add("glossy", [=, this](Recorder& to) {
     to.fill(memory_.path_lists[0].count, 0u);
     to.barrier();
@@ -204,7 +179,7 @@ bool FramePassesVulkan::trace_coats(const Band& around, CoatKind kind, const Buf
   path_pass_ = "glossy";
   path_seed_ = seed;
   const bool any = follow_all(1, first_index, sample_);
-  keeps_mirrored_emitters_ = false;
+  keeps_in_mirrors_ = 0u;
   if (!any) return false;
   reuse_coat_rays(around, sky, keeps);
   for (std::uint32_t ray = 1; ray < static_cast<std::uint32_t>(request_->settings.coat_rays);
@@ -248,7 +223,7 @@ bool FramePassesVulkan::add_further_rays(const Band& around, std::uint32_t seed,
 bool FramePassesVulkan::follow_all(std::uint32_t first_bounce, std::uint32_t first_index,
                                    std::uint32_t salt) {
   bool any = false;
-  for (std::uint32_t bounce = first_bounce; bounce <= kMaxPathVertices; ++bounce) {
+  for (std::uint32_t bounce = first_bounce; bounce <= kMaxGlassVertices; ++bounce) {
     const std::uint32_t paths = count_paths(memory_.path_lists[list_of(bounce)]);
     if (paths == 0) break;
     follow_paths(paths, bounce, first_index, salt);
@@ -266,8 +241,8 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
   reserve<vec3>(paths, "diffuse light of paths", m.path_diffuse);
   reserve<vec3>(paths, "specular light of paths", m.path_specular);
   const bool keeps_behind = keeps_behind_, samples_behind = samples_behind_;
-  const bool keeps_mirrored = keeps_mirrored_emitters_;
-  const bool apart = keeps_mirrored || (keeps_behind && reflected_draws() > 0);
+  const bool keeps_mirrored = (keeps_in_mirrors_ & kKeepsMirroredBases) != 0u;
+  const bool apart = (keeps_mirrored || keeps_behind) && reflected_draws() > 0;
   const std::size_t drawn = apart ? paths : 0;
   reserve<vec3>(drawn, "drawn light of paths", m.path_drawn);
   reserve<float>(drawn, "squares of drawn light of paths", m.path_drawn_squares);
@@ -324,7 +299,7 @@ void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
     }
     if (keeps_mirrored) {
       to.barrier();
-      keep_mirrored_emitters(to, paths, from);
+      keep_mirrored_bases(to, paths, from);
     }
   });
   if (has_field) {

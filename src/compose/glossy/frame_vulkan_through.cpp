@@ -134,6 +134,22 @@ void FramePassesVulkan::begin_through(std::size_t pixels) {
   // Transmitted light of smooth glass is not filtered a second time
   r.filtered.address =
       shows_rough_glass(*request_) ? room(sizeof(vec3), t.filtered) : r.light.address;
+  const bool gathers = gathers_behind_glass(*request_);
+  const auto room_to_gather = [&](std::size_t bytes, Buffer& buffer) {
+    return gathers ? room(bytes, buffer) : 0;
+  };
+  r.geometric_normals_ws.address = room_to_gather(sizeof(vec3), t.geometric_normals_ws);
+  r.gathered.address = room_to_gather(sizeof(vec3), t.gathered);
+  r.gathered_variance.address = room_to_gather(sizeof(float), t.gathered_variance);
+  r.excess.address = room_to_gather(sizeof(vec3), t.excess);
+  r.looked_up.address = room_to_gather(sizeof(vec3), t.looked_up);
+  r.indirect_albedo.address = room_to_gather(sizeof(vec3), t.indirect_albedo);
+  r.filtered_gathered.address = room_to_gather(sizeof(vec3), t.filtered_gathered);
+  const int width = request_->settings.width;
+  const auto of_a_band =
+      static_cast<std::size_t>(rows_of_a_band(width)) * static_cast<std::size_t>(width);
+  reserve<ShownBase>(gathers ? of_a_band : 0, "surfaces behind glass", memory_.bases_behind);
+  r.bases.address = memory_.bases_behind.address();
   reserve<SeenThroughRecord>(1, "where what is seen through surfaces is", t.addresses);
   vulkan::write(device_, std::span<const SeenThroughRecord>(&r, 1), t.addresses);
 }
@@ -143,7 +159,9 @@ void FramePassesVulkan::start_through() {
     const StartThroughArguments arguments = {{memory_.through.addresses.address()},
                                              {memory_.surfaces.address()},
                                              first_traced_pixel(),
-                                             pixels_};
+                                             pixels_,
+                                             gathers_behind_glass(*request_) ? 1u : 0u,
+                                             0u};
     to.run(kernels_.start_through, arguments, pixels_);
   });
 }
@@ -168,20 +186,34 @@ void FramePassesVulkan::keep_behind(Recorder& to, std::uint32_t paths, const Pat
                                          paths,
                                          reflected_draws(),
                                          world_.scene().has_bright_sky() ? 1u : 0u,
-                                         0u};
+                                         gathers_behind_glass(*request_) ? 1u : 0u};
   to.run(kernels_.keep_behind, arguments, paths);
+}
+
+void FramePassesVulkan::gather_behind_glass() {
+  const SeenThroughRecord& kept = memory_.through.record;
+  const std::uint64_t at = first_traced_pixel();
+  reserve<vec3>(pixels_, "lookups behind glass", memory_.looked_up_behind);
+  gather_shown(kept.bases, memory_.looked_up_behind, {kept.gathered.address + at * sizeof(vec3)},
+               {kept.gathered_variance.address + at * sizeof(float)},
+               {kept.excess.address + at * sizeof(vec3)});
 }
 
 /// Stores the light transmitted through the surfaces of the band's pixels.
 void FramePassesVulkan::keep_through() {
   add("compose", [this](Recorder& to) {
     FrameMemory& m = memory_;
-    const KeepThroughArguments arguments = {
-        {m.points.address()},         {m.surfaces.address()},
-        {m.coat_rays.address()},      {m.coat_distances.address()},
-        {m.pixel_fog.address()},      {m.through.addresses.address()},
-        first_traced_pixel(),         pixels_,
-        has_fog(*request_) ? 1u : 0u, 0u};
+    const KeepThroughArguments arguments = {{m.points.address()},
+                                            {m.surfaces.address()},
+                                            {m.coat_rays.address()},
+                                            {m.coat_distances.address()},
+                                            {m.pixel_fog.address()},
+                                            {m.looked_up_behind.address()},
+                                            {m.through.addresses.address()},
+                                            first_traced_pixel(),
+                                            pixels_,
+                                            has_fog(*request_) ? 1u : 0u,
+                                            gathers_behind_glass(*request_) ? 1u : 0u};
     to.run(kernels_.keep_through, arguments, pixels_);
   });
 }
@@ -191,7 +223,7 @@ void FramePassesVulkan::denoise_through(const DenoiseViewOnDevice& view, const S
                                         float share) {
   const std::uint32_t pixels = view.width * view.height;
   const std::uint32_t draws = reflected_draws();
-  const bool blurs = shows_rough_glass(*request_);
+  const bool blurs = shows_rough_glass(*request_), gathers = gathers_behind_glass(*request_);
   add("denoise", [=, this](Recorder& to) {
     const SeenThroughRecord& r = memory_.through.record;
     const SeenThroughArray seen{memory_.through.addresses.address()};
@@ -206,9 +238,18 @@ void FramePassesVulkan::denoise_through(const DenoiseViewOnDevice& view, const S
       memory_.denoiser.record(to, behind, {r.emitters, {}, variance, r.emitter_levels},
                               emitter_denoising(), r.filtered_emitters);
     }
+    if (gathers) {
+      DenoiseViewOnDevice by_geometry = behind;
+      by_geometry.normals_ws = r.geometric_normals_ws;
+      const bool several = shown_gather_rays(request_->settings) > 1;
+      denoise_gathered(to, by_geometry,
+                       {r.gathered, r.looked_up, several ? r.gathered_variance : FloatArray{}},
+                       r.excess, r.filtered_gathered);
+    }
     behind.lobes = r.coat_lobes;
     memory_.denoiser.record(to, behind, {r.coats}, geometric_denoising(), r.filtered_coats);
-    to.run(kernels_.add_behind, AddBehindArguments{seen, pixels, draws}, pixels);
+    to.run(kernels_.add_behind, AddBehindArguments{seen, pixels, draws, gathers ? 1u : 0u, 0u},
+           pixels);
     to.barrier();
     if (blurs) {
       DenoiseViewOnDevice blurred = view;

@@ -65,7 +65,8 @@ void Glossy::start(const GlossySettings& settings, int first_row, std::size_t pi
   paths_.start(pixels);
   coat_distances_.assign(pixels, -1.0f);
   mirrored_.clear();
-  mirrored_emitters_.clear();
+  mirrored_bases_.clear();
+  gathers_in_mirrors_ = gathers_behind_ = false;
 }
 
 /// Draws the ray of pixel `i` of `seen`, whose place is among the paths. Returns whether there is
@@ -103,8 +104,9 @@ std::uint64_t Glossy::send_rays(const GlossySettings& settings, std::span<const 
   start(settings, around.front().first_row, pixels, 0u);
   if (keeps_mirrored) {
     mirrored_.assign(pixels, no_mirrored_coat());
-    mirrored_emitters_.assign(pixels, no_mirrored_emitters());
+    mirrored_bases_.assign(pixels, no_shown_base());
   }
+  gathers_in_mirrors_ = keeps_mirrored && shown_gather_rays(settings.frame) > 0;
 
   const auto rows_between = static_cast<uint>(settings.frame.glossy_rows);
   const auto sample = static_cast<uint>(settings.sample);
@@ -204,12 +206,15 @@ void Glossy::add_field_light(const GlossySettings& settings) {
     queries_.push_back(query_of(paths_.next[i], met_.surfaces[i], direction_ws));
     asked_.push_back(i);
   };
-  const auto asks_for_base = [&](const Surface& surface) {
-    return surface.gi_share > 0.0f && !has_no_base(surface.reflectance);
+  const auto asks_for_base = [&](const Surface& surface, const CoatPath& path) {
+    if (surface.gi_share <= 0.0f || has_no_base(surface.reflectance)) return false;
+    if (gathers_behind_ && path.stage == kStageBehindGlass) return false;
+    return !gathers_in_mirrors_ ||
+           !is_in_own_mirror(path, surface.transmission, surface.reflectance);
   };
   for (std::size_t i = 0; i < met_.size(); ++i) {
     if (met_.hit[i] == 0) continue;
-    if (asks_for_base(met_.surfaces[i])) ask(i, met_.surfaces[i].normal_ws);
+    if (asks_for_base(met_.surfaces[i], paths_.paths[i])) ask(i, met_.surfaces[i].normal_ws);
   }
   const std::size_t of_bases = queries_.size();
   for (std::size_t i = 0; i < met_.size(); ++i) {
@@ -266,44 +271,22 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
   return going_on;
 }
 
-/// Stores the light of emitters on the surfaces that pixels' mirrors show apart. Elsewhere, it
-/// joins the other direct light.
-void Glossy::keep_mirrored_emitters() {
-  if (direct_.emitters.empty()) return;
-  parallel_chunks(met_.size(), kCostlyPixelsPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (met_.hit[i] == 0) continue;
-      const Surface& surface = met_.surfaces[i];
-      direct_.specular[i] += direct_.emitter_specular[i];
-      if (!is_in_own_mirror(paths_.paths[i], surface.transmission, surface.reflectance)) {
-        direct_.diffuse[i] += direct_.emitters[i];
-        continue;
-      }
-      const FilteredEmitter emitter =
-          filtered_emitter(surface.reflectance, direct_.emitters[i], direct_.unoccluded[i]);
-      const float variance = direct_.emitter_variance.empty() ? 0.0f : direct_.emitter_variance[i];
-      mirrored_emitters_[i] = mirrored_emitters(surface.position_ws, surface.normal_ws, emitter,
-                                                variance, paths_.paths[i]);
-    }
-  });
-}
-
 /// Traces `going` paths to their end, from bounce `first_bounce` on; returns the number of rays
 /// traced.
 std::uint64_t Glossy::follow_all(const GlossySettings& settings, std::uint64_t going,
                                  std::uint32_t first_bounce, const KeptBehind& kept) {
   FrameSettings lighting = settings.frame;
-  const bool keeps_mirrored = !mirrored_emitters_.empty();
+  const bool keeps_mirrored = !mirrored_bases_.empty();
   lighting.denoise = kept.seen != nullptr || keeps_mirrored;
   lighting.emissive_samples = settings.frame.reflected_emissive_samples;
   std::uint64_t traced = 0;
-  for (std::uint32_t bounce = first_bounce; going > 0 && bounce <= kMaxPathVertices; ++bounce) {
+  for (std::uint32_t bounce = first_bounce; going > 0 && bounce <= kMaxGlassVertices; ++bounce) {
     traced += follow_rays(settings, bounce);
     if (samples_behind_) traced += sample_lights_behind(settings, met_, bounce);
     traced += shade_direct(settings.world, met_, lighting, {first_row_, 0},
                            static_cast<int>(coat_salt(salt_, bounce)), false, direct_);
     if (kept.seen != nullptr) keep_behind(settings, kept);
-    if (keeps_mirrored) keep_mirrored_emitters();
+    if (keeps_mirrored) keep_mirrored_bases();
     if (!forks_.paths.empty()) split_paths(settings, bounce);
     going = light_hits(settings, bounce);
   }
@@ -314,7 +297,7 @@ std::uint64_t Glossy::reflect(const GlossySettings& settings, std::span<const Gl
                               const GlossyRows& band, bool keeps_mirrored, CoatLight& light) {
   const std::uint64_t going = send_rays(settings, around, keeps_mirrored);
   const std::uint64_t traced = follow_all(settings, going, 1, {});
-  reuse_.reflect(settings, around, band, rays_, {mirrored_, mirrored_emitters_}, light);
+  reuse_.reflect(settings, around, band, rays_, {mirrored_, mirrored_bases_}, light);
   return traced + add_further_rays(settings, band, light);
 }
 
@@ -327,15 +310,6 @@ GlossySettings glossy_settings(const FrameRequest& request, const FrameSettings&
           request.drawn(sample),
           request.jitter(),
           request.round.first};
-}
-
-bool filters_mirrored_light(const FrameRequest& request) {
-  if (!request.settings.denoise || !traces_coats(request)) return false;
-  return std::ranges::any_of(request.world.scene().materials, [](const Material& material) {
-    const bool textured = material.metallic_roughness_texture.texture >= 0;
-    return !material.lambert &&
-           (textured || material.roughness * material.roughness <= kMirrorAlpha);
-  });
 }
 
 std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sample, CoatKind kind,

@@ -62,7 +62,7 @@ class Glossy {
                            std::uint32_t first_bounce, const KeptBehind& kept);
   void split_paths(const GlossySettings& settings, std::uint32_t bounce);
   void keep_behind(const GlossySettings& settings, const KeptBehind& kept);
-  void keep_mirrored_emitters();
+  void keep_mirrored_bases();
   std::uint64_t send_rays(const GlossySettings& settings, std::span<const GlossyRows> around,
                           bool keeps_mirrored);
   bool draw_ray(const GlossySettings& settings, const GBuffer& seen, std::size_t i, vec2 u,
@@ -79,16 +79,19 @@ class Glossy {
   void add_field_light(const GlossySettings& settings);
   std::uint64_t light_hits(const GlossySettings& settings, std::uint32_t bounce);
 
-  uint salt_ = 0;                // of the random numbers
-  bool samples_behind_ = false;  // there may be lights behind rough surfaces to sample
+  uint salt_ = 0;                    // of the random numbers
+  bool samples_behind_ = false;      // there may be lights behind rough surfaces to sample
+  bool gathers_in_mirrors_ = false;  // see shown_gather_rays()
+  bool gathers_behind_ = false;
   // One entry for each pixel of the rows around the band
   int first_row_ = 0;
   std::vector<CoatRay> rays_;
   Paths paths_, forks_;  // the paths being traced, and the reflected branches to be traced later
-  std::vector<MirroredCoat> mirrored_;               // empty where these are not kept
-  std::vector<MirroredEmitters> mirrored_emitters_;  // empty where these are not kept
-  std::vector<float> coat_distances_;                // TransmittedLight::coat_distances
-  GBuffer met_;                                      // the paths' hits
+  std::vector<MirroredCoat> mirrored_;     // empty where these are not kept
+  std::vector<ShownBase> mirrored_bases_;  // empty where these are not kept
+  std::vector<ShownBase> bases_behind_;    // TransmittedLight::bases
+  std::vector<float> coat_distances_;      // TransmittedLight::coat_distances
+  GBuffer met_;                            // the paths' hits
   ReflectedLight direct_;
   std::vector<FieldQuery> queries_;
   std::vector<std::size_t> asked_;  // the queries' pixels
@@ -132,8 +135,11 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
                            GlossyMemory& memory, CoatLight& light);
 
 /// Whether what coats that mirrors show reflect is filtered, and the light of emitters there; see
-/// MirroredCoat and MirroredEmitters.
+/// MirroredCoat and ShownBase.
 bool filters_mirrored_light(const FrameRequest& request);
+
+/// Whether the surfaces that mirrors show gather their indirect light by rays of their own.
+bool gathers_in_mirrors(const FrameRequest& request);
 
 /// Whether the light of clearcoats from rays is filtered, at pixels with is_filtered_clearcoat().
 bool filters_clearcoats(const FrameRequest& request);

@@ -106,7 +106,7 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
   reflected.own.assign(settings.frame.coat_rays > 1 ? pixels.size() : 0, {vec3(0.0f), 0.0f});
   const bool keeps_mirrored = !in_mirrors.coats.empty();
   reflected.mirrored.assign(keeps_mirrored ? pixels.size() : 0, no_mirrored_coat());
-  reflected.mirrored_emitters.assign(keeps_mirrored ? pixels.size() : 0, no_mirrored_emitters());
+  reflected.mirrored_bases.assign(keeps_mirrored ? pixels.size() : 0, no_shown_base());
   parallel_chunks(pixels.size() / width, 1, [&](std::size_t begin, std::size_t) {
     const int y = band.first_row + static_cast<int>(begin);
     SeenAround<CoatRay> seen{rays, first_row, {width, settings.frame.height}};
@@ -138,7 +138,7 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
         const std::size_t place = static_cast<std::size_t>(y - first_row) * width + places[k];
         MirroredCoat& coat = reflected.mirrored[i];
         coat = mirrored_light(receivers[k], share, in_mirrors.coats[place]);
-        reflected.mirrored_emitters[i] = in_mirrors.emitters[place];
+        reflected.mirrored_bases[i] = in_mirrors.bases[place];
         if (coat.alpha > 0.0f) {
           coat.inverse_seen_distance = coats_seen.seen_inverse_distance(
               coats_seen, {places[k], y}, static_cast<uint>(settings.sample), 1u);

@@ -40,7 +40,7 @@ struct CoatLight {
   std::vector<MirroredCoat> mirrored;
   /// The light of emitters on the surfaces that mirrors show, without which `light` is. Empty where
   /// `mirrored` is.
-  std::vector<MirroredEmitters> mirrored_emitters;
+  std::vector<ShownBase> mirrored_bases;
   std::vector<OwnRayLight> own;  ///< Empty where pixels have one ray.
 
   bool empty() const { return light.empty(); }
@@ -48,7 +48,7 @@ struct CoatLight {
     light.clear();
     guides.clear();
     mirrored.clear();
-    mirrored_emitters.clear();
+    mirrored_bases.clear();
     own.clear();
   }
 };
@@ -56,7 +56,7 @@ struct CoatLight {
 /// What the mirrors of some pixels show; empty where that is not kept separately.
 struct MirroredLight {
   std::span<const MirroredCoat> coats;
-  std::span<const MirroredEmitters> emitters;
+  std::span<const ShownBase> bases;
 };
 
 /// The specular lobe of a pixel.

@@ -59,6 +59,7 @@ void filter_behind(const DenoiseView& view, Denoiser& denoiser, SeenThrough& see
                         emitter_denoising(), seen.filtered_emitters);
     assert(done);  // sizes are the view's
   }
+  seen.gather.filter(behind, denoiser);
   seen.filtered_coats.resize(seen.coats.size());
   find_inverse_distances(view, seen.coat_alphas, seen.coat_distances, seen.coat_inverse_distances);
   behind.lobes = {seen.coat_to_viewer_ws, seen.coat_alphas, seen.coat_inverse_distances};
@@ -69,14 +70,15 @@ void filter_behind(const DenoiseView& view, Denoiser& denoiser, SeenThrough& see
     for (std::size_t i = begin; i < end; ++i) {
       seen.light[i] += seen.emitter_albedo[i] * seen.filtered_emitters[i] +
                        seen.coat_albedo[i] * seen.filtered_coats[i];
+      if (!seen.gather.empty()) seen.light[i] += seen.gather.albedo[i] * seen.gather.filtered[i];
     }
   });
 }
 
 }  // namespace
 
-void SeenThrough::start(std::size_t pixels, const GBuffer& gbuffer, std::size_t first,
-                        const FrameSettings& settings) {
+void SeenThrough::start(const FrameRequest& request, std::size_t pixels, const GBuffer& gbuffer,
+                        std::size_t first) {
   for (std::vector<vec3>* vectors :
        {&positions_ws, &normals_ws, &emitters, &emitter_albedo, &coats, &coat_albedo,
         &coat_to_viewer_ws, &light, &albedo, &away_normals_ws, &to_viewer_ws}) {
@@ -86,13 +88,16 @@ void SeenThrough::start(std::size_t pixels, const GBuffer& gbuffer, std::size_t 
        {&depths, &emitter_levels, &coat_alphas, &coat_distances, &alphas, &distances}) {
     numbers->resize(pixels);
   }
-  const bool has_variance = settings.reflected_emissive_samples > 1;
+  const bool has_variance = request.settings.reflected_emissive_samples > 1;
+  const bool gathers = gathers_behind_glass(request);
+  gather.resize(gathers ? pixels : 0, shown_gather_rays(request.settings) > 1);
   emitter_variance.resize(has_variance ? pixels : 0);
   parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t pixel = first + i;
       // The light of a skipped pixel already includes what is behind: that must not be added again
       emitter_albedo[pixel] = coat_albedo[pixel] = albedo[pixel] = vec3(0.0f);
+      if (gathers) gather.albedo[pixel] = vec3(0.0f);
       if (gbuffer.skips(i)) continue;
       depths[pixel] = emitter_levels[pixel] = coat_alphas[pixel] = alphas[pixel] = 0.0f;
       emitters[pixel] = coats[pixel] = light[pixel] = vec3(0.0f);
@@ -137,6 +142,9 @@ void keep_through(const BandSeenThrough& band, SeenThrough& seen) {
         seen.coat_albedo[pixel] /= tint;
         if (seen.coat_alphas[pixel] > 0.0f) {
           seen.coat_distances[pixel] = band.transmitted.coat_distances[i];
+        }
+        if (band.gathered != nullptr) {
+          seen.gather.keep(*band.gathered, band.transmitted.bases[i], 1.0f / tint, i, pixel);
         }
       }
       seen.albedo[pixel] = shown_weight(gbuffer, band.fog, i) * tint;

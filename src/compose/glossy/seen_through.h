@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compose/frame_passes.h"
+#include "compose/gather/shown_gather.h"
 #include "compose/gbuffer.h"
 #include "compose/layers.h"
 #include "lambent/denoise.h"
@@ -25,6 +26,8 @@ struct TransmittedLight {
   /// filtered.
   std::vector<glm::vec3> coats_behind;
   std::vector<float> coat_distances;
+  /// The first opaque surfaces behind glass; empty where these gather no light.
+  std::vector<ShownBase> bases;
 
   bool empty() const { return light.empty(); }
   void clear() { light.clear(); }
@@ -38,6 +41,7 @@ struct SeenThrough {
   std::vector<glm::vec3> emitters;
   std::vector<float> emitter_variance, emitter_levels;
   std::vector<glm::vec3> emitter_albedo;  ///< Factor from filtered light to `light`.
+  ShownGatherPixels gather;               ///< Empty where these surfaces gather no light.
   // The light that this surface's coat reflects
   std::vector<glm::vec3> coats, coat_albedo, coat_to_viewer_ws;
   std::vector<float> coat_alphas;
@@ -56,8 +60,8 @@ struct SeenThrough {
 
   /// Makes room for the traced rows' pixels. Those of a band, from index `first` on, show no
   /// transmitted light yet; those that it skips keep theirs for their neighbours, and add none.
-  void start(std::size_t pixels, const GBuffer& gbuffer, std::size_t first,
-             const FrameSettings& settings);
+  void start(const FrameRequest& request, std::size_t pixels, const GBuffer& gbuffer,
+             std::size_t first);
   /// Empties all arrays, for scenes without transmission.
   void clear();
 };
@@ -73,6 +77,11 @@ inline bool filters_through(const FrameRequest& request) {
   return request.settings.denoise && tracer_of(request.world).has_glass();
 }
 
+/// Whether the first opaque surfaces behind glass gather their indirect light by rays of their own.
+inline bool gathers_behind_glass(const FrameRequest& request) {
+  return gathers(request) && shown_gather_rays(request.settings) > 0 && filters_through(request);
+}
+
 /// Whether some surface of the scene may spread the light that it transmits.
 bool has_rough_glass(const Scene& scene);
 
@@ -83,6 +92,7 @@ bool shows_rough_glass(const FrameRequest& request);
 struct BandSeenThrough {
   const GBuffer& gbuffer;
   const TransmittedLight& transmitted;
+  const ShownGather* gathered;     ///< Null: surfaces behind glass gather no light.
   std::span<const glm::vec4> fog;  ///< See BandToFilter.
   std::size_t first;               ///< First pixel of the band among the traced ones.
 };

@@ -25,6 +25,15 @@ struct SeenThroughRecord {
   Vec3Array albedo;
   LobeGuideArray lobes;
   FloatArray distances;
+  // Written where the surfaces gather light; see ShownGatherPixels
+  ShownBaseArray bases;  ///< One for each pixel of the band.
+  Vec3Array geometric_normals_ws;
+  Vec3Array gathered;
+  FloatArray gathered_variance;
+  Vec3Array excess;
+  Vec3Array looked_up;
+  Vec3Array indirect_albedo;
+  Vec3Array filtered_gathered;
   Vec3Array filtered_emitters;
   Vec3Array filtered_coats;
   Vec3Array filtered;
@@ -37,6 +46,8 @@ struct StartThroughArguments {
   PixelSurfaceArray surfaces;
   uint first;  ///< First pixel of the band among the traced ones.
   uint count;
+  uint gathers;  ///< 1: surfaces behind glass gather light, as below.
+  uint padding;
 };
 
 /// Stores the light of the first opaque surfaces behind glass apart, see Glossy::keep_behind.
@@ -59,7 +70,7 @@ struct KeepBehindArguments {
   uint count;  ///< Number of paths.
   uint draws;  ///< Samples of emitters a path.
   uint has_sky;
-  uint padding;
+  uint gathers;
 };
 
 /// Stores all transmitted light, see keep_through().
@@ -68,12 +79,13 @@ struct KeepThroughArguments {
   PixelSurfaceArray surfaces;
   CoatRayArray coat_rays;
   FloatArray coat_distances;
-  Vec4Array fog;  ///< See fog_along(); read where has_fog is 1.
+  Vec4Array fog;        ///< See fog_along(); read where has_fog is 1.
+  Vec3Array looked_up;  ///< Irradiance by lookups; read where gathers is 1.
   SeenThroughArray seen;
   uint first;
   uint count;
   uint has_fog;
-  uint padding;
+  uint gathers;
 };
 
 /// Averages the reciprocal distances to what lobes show over neighbouring pixels.
@@ -88,6 +100,8 @@ struct AddBehindArguments {
   SeenThroughArray seen;
   uint count;
   uint draws;  ///< Samples of emitters; 0: none of their light was stored.
+  uint gathers;
+  uint padding;
 };
 
 /// Adds filtered transmitted light to the layers.

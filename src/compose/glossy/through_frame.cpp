@@ -59,6 +59,13 @@ void Glossy::keep_behind(const GlossySettings& settings, const KeptBehind& kept)
       seen.coat_alphas[pixel] = alpha_behind(surface.reflectance, met_.coat_shares[i].coat);
       seen.coat_albedo[pixel] = coat_albedo_behind(path, surface.reflectance,
                                                    dot(surface.normal_ws, met_.to_viewer_ws[i]));
+      if (gathers_behind_) {
+        bases_behind_[i] =
+            shown_base(surface.position_ws, surface.normal_ws, surface.geometric_normal_ws,
+                       surface.gi_share, surface.reflectance, met_.to_viewer_ws[i],
+                       distance(surface.position_ws, paths_.next[i].origin), path,
+                       !has_no_base(surface.reflectance));
+      }
       if (!direct_.sky.empty()) {
         rays_[i].apart += path.throughput * direct_.sky[i];
         direct_.sky[i] = vec3(0.0f);
@@ -104,6 +111,8 @@ std::uint64_t Glossy::look_through(const GlossySettings& settings, const GlossyR
                                    const KeptBehind& kept, TransmittedLight& light) {
   start(settings, band.first_row, band.pixels.size(), kThroughSalt);
   forks_.start(band.pixels.size());
+  gathers_behind_ = kept.seen != nullptr && !kept.seen->gather.empty();
+  bases_behind_.assign(gathers_behind_ ? band.pixels.size() : 0, no_shown_base());
   const std::uint64_t sent = send_through(settings, band.pixels);
   std::uint64_t traced = samples_behind_ ? sample_lights_behind(settings, band.pixels, 0) : 0;
   traced += follow_all(settings, sent, 1, kept);
@@ -112,6 +121,7 @@ std::uint64_t Glossy::look_through(const GlossySettings& settings, const GlossyR
   std::swap(paths_, forks_);
   forks_.start(0);
   traced += follow_all(settings, static_cast<std::uint64_t>(going), kFirstBounceOfForks, kept);
+  light.bases = bases_behind_;
   light.light.resize(rays_.size());
   light.distances.resize(rays_.size());
   light.coats_behind.resize(rays_.size());

@@ -3,7 +3,7 @@
 
 #include "compose/frame_tasks.h"
 #include "compose/history/lookup_levels.h"
-#include "compose/motion.h"
+#include "compose/motion/motion.h"
 #include "core/parallel.h"
 #include "denoise/history_math.h"
 #include "raytracing/camera_rays.h"

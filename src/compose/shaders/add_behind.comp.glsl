@@ -16,5 +16,8 @@ void main() {
   if (args.draws > 0u) {
     light += args.seen.at[0].emitter_albedo.at[i] * args.seen.at[0].filtered_emitters.at[i];
   }
+  if (args.gathers != 0u) {
+    light += args.seen.at[0].indirect_albedo.at[i] * args.seen.at[0].filtered_gathered.at[i];
+  }
   args.seen.at[0].light.at[i] += light;
 }

@@ -43,9 +43,17 @@ void main() {
   if (args.mirrored != 0u) {
     show_coat(i, pixels.mirrored_lobes, pixels.mirrored_albedo, pixels.filtered_mirrored, layers);
   }
-  if (args.mirrored_emitters != 0u && pixels.mirrored_emitter_depths.at[i] > 0.0f) {
-    vec3 glossy = args.share * pixels.mirrored_emitter_albedo.at[i] *
-                  pixels.filtered_mirrored_emitters.at[i];
+  bool shows_base = (args.mirrored_emitters | args.mirrored_gathered) != 0u;
+  if (shows_base && pixels.mirrored_base_depths.at[i] > 0.0f) {
+    vec3 glossy = vec3(0.0f);
+    if (args.mirrored_emitters != 0u) {
+      glossy += args.share * pixels.mirrored_emitter_albedo.at[i] *
+                pixels.filtered_mirrored_emitters.at[i];
+    }
+    if (args.mirrored_gathered != 0u) {
+      glossy += args.share * pixels.mirrored_indirect_albedo.at[i] *
+                pixels.filtered_mirrored_gathered.at[i];
+    }
     layers.glossy += glossy;
     layers.all += glossy;
   }

@@ -55,6 +55,13 @@ void main() {
   }
   args.seen.at[0].coat_albedo.at[pixel] =
       coat_albedo_behind(path, surface.reflectance, dot(point.normal_ws, surface.to_viewer_ws));
+  if (args.gathers != 0u) {
+    args.seen.at[0].bases.at[i] =
+        shown_base(point.position_ws, point.normal_ws, point.geometric_normal_ws, surface.gi_share,
+                   surface.reflectance, surface.to_viewer_ws, point.viewer_distance, path,
+                   !has_no_base(surface.reflectance));
+    args.surfaces.at[k].flags = surface.flags | kSurfaceGathers;
+  }
   if (args.has_sky != 0u) args.coat_rays.at[i].apart += path.throughput * args.sky.at[k];
   if (args.draws == 0u) return;
   args.coat_rays.at[i].apart += path.throughput * args.drawn_specular.at[k];

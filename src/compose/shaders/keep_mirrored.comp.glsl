@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stores what the coats that a band's mirrors show reflect, and the light of emitters there, for
-// the filter; see keep_pixels.cpp.
+// Stores what the coats that a band's mirrors show reflect, and the light of the surfaces there,
+// for the filter; see keep_pixels.cpp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/filter_records.h"
 #include "compose/pixel_math.h"
+#include "glossy/glossy_records.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
@@ -20,28 +21,39 @@ float view_depth(vec3 position_ws) {
   return -dot(position_ws - args.camera_ws, args.camera_back);
 }
 
-void keep_emitters(uint i, uint pixel, PixelSurfaceRecord surface) {
-  if ((surface.flags & kSurfaceSkipped) != 0u) {
-    args.pixels.at[0].mirrored_emitter_albedo.at[pixel] = vec3(0.0f);
-    return;
+void keep_base(uint i, uint pixel, PixelSurfaceRecord surface) {
+  FilteredPixelsRecord kept = args.pixels.at[0];
+  bool gathers = (args.keeps & kGathersInMirrors) != 0u;
+  kept.mirrored_emitter_albedo.at[pixel] = vec3(0.0f);
+  if (gathers) kept.mirrored_indirect_albedo.at[pixel] = vec3(0.0f);
+  if ((surface.flags & kSurfaceSkipped) != 0u) return;
+  kept.mirrored_base_depths.at[pixel] = 0.0f;
+  kept.mirrored_emitter_levels.at[pixel] = 0.0f;
+  kept.mirrored_emitters.at[pixel] = vec3(0.0f);
+  if (args.draws > 1u) kept.mirrored_emitter_variance.at[pixel] = 0.0f;
+  ShownBase base = args.bases.at[i];
+  if (gathers && base.indirect_albedo == vec3(0.0f)) {
+    kept.mirrored_gathered.at[pixel] = vec3(0.0f);
+    kept.mirrored_gathered_variance.at[pixel] = 0.0f;
+    kept.mirrored_excess.at[pixel] = vec3(0.0f);
+    kept.mirrored_looked_up.at[pixel] = vec3(0.0f);
   }
-  args.pixels.at[0].mirrored_emitter_depths.at[pixel] = 0.0f;
-  args.pixels.at[0].mirrored_emitter_levels.at[pixel] = 0.0f;
-  args.pixels.at[0].mirrored_emitters.at[pixel] = vec3(0.0f);
-  if (args.draws > 1u) args.pixels.at[0].mirrored_emitter_variance.at[pixel] = 0.0f;
-  MirroredEmitters emitters = args.emitters.at[i];
-  if ((surface.flags & kSurfaceMissed) != 0u || emitters.shown == 0u) return;
+  if ((surface.flags & kSurfaceMissed) != 0u || base.shown == 0u) return;
   vec3 mirror_ws = args.points.at[i].position_ws;
-  args.pixels.at[0].mirrored_emitter_depths.at[pixel] =
-      view_depth(mirror_ws) + distance(mirror_ws, emitters.position_ws);
-  args.pixels.at[0].mirrored_emitter_positions_ws.at[pixel] = emitters.position_ws;
-  args.pixels.at[0].mirrored_emitter_normals_ws.at[pixel] = emitters.normal_ws;
-  args.pixels.at[0].mirrored_emitters.at[pixel] = emitters.light;
-  args.pixels.at[0].mirrored_emitter_levels.at[pixel] = emitters.level;
-  args.pixels.at[0].mirrored_emitter_albedo.at[pixel] =
-      shown_weight(i, surface) * emitters.albedo * args.mirrored.at[i].mirror_share;
-  if (args.draws < 2u) return;
-  args.pixels.at[0].mirrored_emitter_variance.at[pixel] = emitters.variance;
+  kept.mirrored_base_depths.at[pixel] =
+      view_depth(mirror_ws) + distance(mirror_ws, base.position_ws);
+  kept.mirrored_base_positions_ws.at[pixel] = base.position_ws;
+  kept.mirrored_base_normals_ws.at[pixel] = base.normal_ws;
+  kept.mirrored_emitters.at[pixel] = base.light;
+  kept.mirrored_emitter_levels.at[pixel] = base.level;
+  vec3 weight = shown_weight(i, surface) * args.mirrored.at[i].mirror_share;
+  kept.mirrored_emitter_albedo.at[pixel] = weight * base.emitter_albedo;
+  if (args.draws > 1u) kept.mirrored_emitter_variance.at[pixel] = base.variance;
+  if (!gathers) return;
+  kept.mirrored_geometric_normals_ws.at[pixel] = base.geometric_normal_ws;
+  kept.mirrored_indirect_albedo.at[pixel] = weight * base.indirect_albedo;
+  if (base.indirect_albedo == vec3(0.0f)) return;
+  kept.mirrored_looked_up.at[pixel] = base.gi_share * args.looked_up.at[i];
 }
 
 void main() {
@@ -49,7 +61,7 @@ void main() {
   if (i >= args.count) return;
   uint pixel = args.first + i;
   PixelSurfaceRecord surface = args.surfaces.at[i];
-  if (args.draws > 0u) keep_emitters(i, pixel, surface);
+  if ((args.keeps & kKeepsMirroredBases) != 0u) keep_base(i, pixel, surface);
   if ((surface.flags & kSurfaceSkipped) != 0u) {
     args.pixels.at[0].mirrored_albedo.at[pixel] = vec3(0.0f);
     return;

@@ -2,7 +2,7 @@
 // Computes motion vectors: where the surfaces that pixels show were in the previous frame.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "compose/motion_records.h"
+#include "compose/motion/motion_records.h"
 #include "raytracing/shaders/scene_fetch.glsl"
 #include "raytracing/surface_math.h"
 
@@ -30,7 +30,7 @@ vec3 fetch_position_before(SceneBeforeArray before, uint instance, MeshRecord no
   return now.positions.at[vertex];
 }
 
-#include "compose/motion.inl.h"
+#include "compose/motion/motion.inl.h"
 
 void main() {
   uint i = gl_GlobalInvocationID.x;

@@ -2,7 +2,7 @@
 // Makes the rays that go on behind blended surfaces, which have no motion vectors of their own.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "compose/motion_records.h"
+#include "compose/motion/motion_records.h"
 #include "scene/coverage.h"
 
 layout(local_size_x = 64) in;

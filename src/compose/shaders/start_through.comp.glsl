@@ -16,6 +16,10 @@ void main() {
   args.seen.at[0].emitter_albedo.at[pixel] = vec3(0.0f);
   args.seen.at[0].coat_albedo.at[pixel] = vec3(0.0f);
   args.seen.at[0].albedo.at[pixel] = vec3(0.0f);
+  if (args.gathers != 0u) {
+    args.seen.at[0].bases.at[i] = no_shown_base();
+    args.seen.at[0].indirect_albedo.at[pixel] = vec3(0.0f);
+  }
   if ((args.surfaces.at[i].flags & kSurfaceSkipped) != 0u) return;
   args.seen.at[0].depths.at[pixel] = 0.0f;
   args.seen.at[0].emitters.at[pixel] = vec3(0.0f);

@@ -19,10 +19,12 @@ void main() {
   CoatPath path = args.paths.at[k];
   float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
   CoatShares shares = surface.coat_shares;
-  vec3 light =
-      reflected_indirect(surface.reflectance, n_dot_v, surface.gi_share * args.field.at[2u * k]) +
-      coats_light(surface.reflectance, n_dot_v, surface.gi_share, shares,
-                  args.field.at[2u * k + 1u]);
+  vec3 light = coats_light(surface.reflectance, n_dot_v, surface.gi_share, shares,
+                           args.field.at[2u * k + 1u]);
+  if ((surface.flags & kSurfaceGathers) == 0u) {
+    light +=
+        reflected_indirect(surface.reflectance, n_dot_v, surface.gi_share * args.field.at[2u * k]);
+  }
   CoatRay ray = args.coat_rays.at[i];
   add_radiance(path, light, ray);
   add_direct_light(path, args.diffuse.at[k], args.specular.at[k], ray);

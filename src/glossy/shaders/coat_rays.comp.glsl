@@ -15,8 +15,8 @@ void main() {
   args.coat_rays.at[i] = no_coat_ray(infinity());
   bool keeps_mirrored = (args.keeps & kKeepsMirrored) != 0u;
   if (keeps_mirrored) args.mirrored.at[i] = no_mirrored_coat();
-  if ((args.keeps & kKeepsMirroredEmitters) != 0u) {
-    args.mirrored_emitters.at[i] = no_mirrored_emitters();
+  if ((args.keeps & kKeepsMirroredBases) != 0u) {
+    args.mirrored_bases.at[i] = no_shown_base();
   }
   PixelSurfaceRecord surface = args.surfaces.at[i];
   uvec2 pixel = uvec2(i % args.width, args.first_row + i / args.width);

@@ -35,7 +35,7 @@ void main() {
     Footprint footprint = {width_at(args.cones.at[i], hit.distance), 1u};
     Surface surface = surface_at(args.scene, ray.direction_ws, hit, footprint);
     point = LitPointRecord(surface.position_ws, surface.normal_ws, surface.geometric_normal_ws,
-                           args.first_index + i, 0u, vec3(0.0f), 0.0f,
+                           args.first_index + i, 0u, vec3(0.0f), hit.distance,
                            uintBitsToFloat(kMissedDistanceBits),
                            surface.reflectance.mean_normal_length);
     pixel.reflectance = surface.reflectance;

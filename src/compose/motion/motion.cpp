@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compose/motion.h"
+#include "compose/motion/motion.h"
 
 #include <algorithm>
 #include <atomic>
@@ -33,7 +33,7 @@ vec3 fetch_position_before(const SceneBefore& before, uint instance, const Mesh&
   return bent ? (*before.frame->instances[instance].positions)[vertex] : now.positions[vertex];
 }
 
-#include "compose/motion.inl.h"
+#include "compose/motion/motion.inl.h"
 
 /// Whether a hit's surface is blended. Such surfaces have no motion: rays go on behind them.
 bool is_see_through(const Scene& scene, const Hit& hit) {

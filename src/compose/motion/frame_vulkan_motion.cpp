@@ -4,7 +4,7 @@
 #include <unordered_map>
 
 #include "compose/frame_vulkan.h"
-#include "compose/motion.h"
+#include "compose/motion/motion.h"
 
 namespace lambent {
 

@@ -33,7 +33,7 @@ bool shows_a_wall(const CoatPath& path) {
   return is_in_own_mirror(path, no_transmission(), lambert_reflectance(vec3(0.7f)));
 }
 
-TEST(MirroredEmitters, AreOfTheFirstSurfaceWithABase) {
+TEST(ShownBase, IsOfTheFirstSurfaceWithABase) {
   EXPECT_TRUE(shows_a_wall(from_mirror(0.0001f)));
   EXPECT_FALSE(is_in_own_mirror(from_mirror(0.0001f), no_transmission(), coat_of(0.0001f)));
   EXPECT_TRUE(shows_a_wall(reflected_by(coat_of(0.0001f)))) << "in a further mirror";
@@ -42,7 +42,7 @@ TEST(MirroredEmitters, AreOfTheFirstSurfaceWithABase) {
   EXPECT_FALSE(shows_a_wall(reflected_by(polished))) << "the polished floor has them";
 }
 
-TEST(MirroredEmitters, AreNotOfWideLobes) {
+TEST(ShownBase, IsNotOfWideLobes) {
   EXPECT_FALSE(shows_a_wall(reflected_by(coat_of(0.04f))));
   EXPECT_FALSE(shows_a_wall(from_mirror(0.009f)));
 }
