@@ -54,7 +54,7 @@ struct SeenThroughBuffers {
   vulkan::Buffer light, albedo, lobes, distances;
   vulkan::Buffer filtered_emitters, filtered_coats, filtered;
   vulkan::Buffer geometric_normals_ws, gathered, gathered_variance, excess, looked_up;
-  vulkan::Buffer indirect_albedo, filtered_gathered;
+  vulkan::Buffer indirect_albedo, filtered_gathered, long_ways, filtered_long_ways;
 };
 
 /// Rays that gather light, their hits, and the field's irradiance there.

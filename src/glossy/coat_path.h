@@ -23,8 +23,8 @@ struct CoatRay {
   /// [W/(m^2 sr)]; of the sky, minus the density with which samples find it [1/sr]. See
   /// sampled_density().
   float apart_luminance;
-  /// Light that the coat of what a mirror shows reflects, see MirroredCoat [W/(m^2 sr)]. `radiance`
-  /// does not include it.
+  /// Light that the coat of what a mirror shows reflects, see MirroredCoat; of rays through
+  /// surfaces, light of long ways, see kStageLongWay [W/(m^2 sr)]. `radiance` does not include it.
   vec3 mirrored;
 };
 LAMBENT_DEVICE_ARRAY(CoatRayArray, CoatRay, 4)
@@ -57,6 +57,9 @@ const uint kStageCoatBehindGlass = 7u;
 const uint kStageBeyondCoat = 8u;
 /// It left a MirroredCoat. All light is stored in CoatRay::mirrored.
 const uint kStageBeyondMirroredCoat = 9u;
+/// It came through kMaxPathVertices surfaces or more, and nothing else. All light is stored in
+/// CoatRay::mirrored.
+const uint kStageLongWay = 10u;
 
 // Values of CoatPath::fork: whether a path splits at glass into a refracted and a reflected branch.
 /// It does not split: at each surface one of the two directions is chosen, see glass_choice().

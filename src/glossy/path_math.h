@@ -84,9 +84,18 @@ const uint kFirstBounceOfForks = 2u;
 // Passed in place of the random number that decides on inner reflection, which is below its share.
 const float kAlwaysReflected = -1.0f, kNeverReflected = 1.0f;
 
+/// Brings the stage of a path that has met many surfaces up to date, before the light of its hit on
+/// bounce `bounce` is added. Lights are sampled no longer.
+LAMBENT_FN void note_long_way(uint bounce, LAMBENT_INOUT(CoatPath) path) {
+  if (path.stage != kStageThroughGlass || bounce <= kMaxPathVertices) return;
+  path.stage = kStageLongWay;
+  path.pdf = kNoLightSampling;
+  path.density_scale = 0.0f;
+}
+
 /// Adds light at a path's hit, without its emission, to the light of its pixel's ray.
 LAMBENT_FN void add_radiance(CoatPath path, vec3 light, LAMBENT_INOUT(CoatRay) ray) {
-  if (path.stage == kStageBeyondMirroredCoat) {
+  if (path.stage == kStageBeyondMirroredCoat || path.stage == kStageLongWay) {
     ray.mirrored += path.throughput * light;
   } else if (path.stage >= kStageCoatBehindGlass) {
     ray.apart += path.throughput * light;

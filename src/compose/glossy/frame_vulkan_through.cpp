@@ -145,6 +145,9 @@ void FramePassesVulkan::begin_through(std::size_t pixels) {
   r.looked_up.address = room_to_gather(sizeof(vec3), t.looked_up);
   r.indirect_albedo.address = room_to_gather(sizeof(vec3), t.indirect_albedo);
   r.filtered_gathered.address = room_to_gather(sizeof(vec3), t.filtered_gathered);
+  const bool long_ways = filters_long_ways(*request_);
+  r.long_ways.address = long_ways ? room(sizeof(vec3), t.long_ways) : 0;
+  r.filtered_long_ways.address = long_ways ? room(sizeof(vec3), t.filtered_long_ways) : 0;
   const int width = request_->settings.width;
   const auto of_a_band =
       static_cast<std::size_t>(rows_of_a_band(width)) * static_cast<std::size_t>(width);
@@ -161,7 +164,7 @@ void FramePassesVulkan::start_through() {
                                              first_traced_pixel(),
                                              pixels_,
                                              gathers_behind_glass(*request_) ? 1u : 0u,
-                                             0u};
+                                             filters_long_ways(*request_) ? 1u : 0u};
     to.run(kernels_.start_through, arguments, pixels_);
   });
 }
@@ -213,7 +216,9 @@ void FramePassesVulkan::keep_through() {
                                             first_traced_pixel(),
                                             pixels_,
                                             has_fog(*request_) ? 1u : 0u,
-                                            gathers_behind_glass(*request_) ? 1u : 0u};
+                                            gathers_behind_glass(*request_) ? 1u : 0u,
+                                            filters_long_ways(*request_) ? 1u : 0u,
+                                            0u};
     to.run(kernels_.keep_through, arguments, pixels_);
   });
 }
@@ -224,6 +229,7 @@ void FramePassesVulkan::denoise_through(const DenoiseViewOnDevice& view, const S
   const std::uint32_t pixels = view.width * view.height;
   const std::uint32_t draws = reflected_draws();
   const bool blurs = shows_rough_glass(*request_), gathers = gathers_behind_glass(*request_);
+  const bool long_ways = filters_long_ways(*request_);
   add("denoise", [=, this](Recorder& to) {
     const SeenThroughRecord& r = memory_.through.record;
     const SeenThroughArray seen{memory_.through.addresses.address()};
@@ -246,10 +252,13 @@ void FramePassesVulkan::denoise_through(const DenoiseViewOnDevice& view, const S
                        {r.gathered, r.looked_up, several ? r.gathered_variance : FloatArray{}},
                        r.excess, r.filtered_gathered);
     }
+    if (long_ways) {
+      memory_.denoiser.record(to, view, {r.long_ways}, long_way_denoising(), r.filtered_long_ways);
+    }
     behind.lobes = r.coat_lobes;
     memory_.denoiser.record(to, behind, {r.coats}, geometric_denoising(), r.filtered_coats);
-    to.run(kernels_.add_behind, AddBehindArguments{seen, pixels, draws, gathers ? 1u : 0u, 0u},
-           pixels);
+    to.run(kernels_.add_behind,
+           AddBehindArguments{seen, pixels, draws, gathers ? 1u : 0u, long_ways ? 1u : 0u}, pixels);
     to.barrier();
     if (blurs) {
       DenoiseViewOnDevice blurred = view;

@@ -160,6 +160,7 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
       const std::size_t i = pixels[k];
       CoatPath& path = paths_.paths[i];
       met_.to_viewer_ws[i] = -rays[k].direction;
+      note_long_way(bounce, path);
       rays_[i].distance = distance_met(path, bounce, rays_[i].distance, hits[k].distance);
       if (path.stage == kStageCoatBehindGlass) {
         coat_distances_[i] = farther_seen(path, coat_distances_[i], hits[k].distance);

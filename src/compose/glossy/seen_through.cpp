@@ -13,6 +13,10 @@
 namespace lambent {
 namespace {
 
+// Passes over light of long ways: 3 pixels to each side. Its single bright rays are spread over
+// these; more passes would leave dark bars along rims and facets, which are where it comes from.
+constexpr int kLongWayPasses = 2;
+
 bool is_any_positive(const std::vector<float>& values) {
   return std::any_of(values.begin(), values.end(), [](float value) { return value > 0.0f; });
 }
@@ -43,6 +47,20 @@ void find_inverse_distances(const DenoiseView& view, std::span<const float> alph
       inverse[i] = seen.seen_inverse_distance(seen, ivec2(i % width, i / width), 0u, 1u);
     }
   });
+}
+
+/// Filters light of long ways, and adds it to all transmitted light.
+void filter_long_ways(const DenoiseView& view, Denoiser& denoiser, SeenThrough& seen) {
+  const auto is_some = [](const vec3& light) { return light != vec3(0.0f); };
+  if (std::ranges::none_of(seen.long_ways, is_some)) return;
+  seen.filtered_long_ways.resize(seen.long_ways.size());
+  [[maybe_unused]] const Expected<void> done = denoiser.filter(
+      view, {seen.long_ways, {}, {}}, long_way_denoising(), seen.filtered_long_ways);
+  assert(done);  // sizes are the view's
+  for (std::size_t i = 0; i < seen.light.size(); ++i) {
+    // Pixels without glass, or without a sample, show none
+    if (seen.albedo[i] != vec3(0.0f)) seen.light[i] += seen.filtered_long_ways[i];
+  }
 }
 
 /// Filters the light of the first opaque surfaces behind glass, and adds it to all transmitted
@@ -88,6 +106,7 @@ void SeenThrough::start(const FrameRequest& request, std::size_t pixels, const G
        {&depths, &emitter_levels, &coat_alphas, &coat_distances, &alphas, &distances}) {
     numbers->resize(pixels);
   }
+  long_ways.resize(filters_long_ways(request) ? pixels : 0);
   const bool has_variance = request.settings.reflected_emissive_samples > 1;
   const bool gathers = gathers_behind_glass(request);
   gather.resize(gathers ? pixels : 0, shown_gather_rays(request.settings) > 1);
@@ -99,6 +118,7 @@ void SeenThrough::start(const FrameRequest& request, std::size_t pixels, const G
       emitter_albedo[pixel] = coat_albedo[pixel] = albedo[pixel] = vec3(0.0f);
       if (gathers) gather.albedo[pixel] = vec3(0.0f);
       if (gbuffer.skips(i)) continue;
+      if (!long_ways.empty()) long_ways[pixel] = vec3(0.0f);
       depths[pixel] = emitter_levels[pixel] = coat_alphas[pixel] = alphas[pixel] = 0.0f;
       emitters[pixel] = coats[pixel] = light[pixel] = vec3(0.0f);
       if (has_variance) emitter_variance[pixel] = 0.0f;
@@ -110,6 +130,19 @@ void SeenThrough::start(const FrameRequest& request, std::size_t pixels, const G
 void SeenThrough::clear() {
   depths.clear();
   light.clear();
+}
+
+DenoiseSettings long_way_denoising() {
+  DenoiseSettings settings;
+  settings.passes = settings.geometric_passes = kLongWayPasses;
+  return settings;
+}
+
+bool filters_long_ways(const FrameRequest& request) {
+  return filters_through(request) &&
+         std::ranges::any_of(request.world.scene().materials, [](const Material& material) {
+           return is_transmissive(material) && material.bounds_volume;
+         });
 }
 
 bool has_rough_glass(const Scene& scene) {
@@ -136,6 +169,8 @@ void keep_through(const BandSeenThrough& band, SeenThrough& seen) {
       const std::size_t pixel = band.first + i;
       const vec3 tint = filtered_tint(surface.transmission);
       seen.light[pixel] = band.transmitted.light[i] / tint;
+      const vec3 long_ways = band.transmitted.long_ways[i] / tint;
+      (seen.long_ways.empty() ? seen.light : seen.long_ways)[pixel] += long_ways;
       seen.emitter_albedo[pixel] /= tint;
       if (seen.depths[pixel] > 0.0f) {
         seen.coats[pixel] = band.transmitted.coats_behind[i] / seen.coat_albedo[pixel];
@@ -162,6 +197,7 @@ void filter_through(const DenoiseView& view, Denoiser& denoiser, SeenThrough& se
   seen.filtered.resize(seen.light.size());
   if (seen.light.empty()) return;
   if (is_any_positive(seen.depths)) filter_behind(view, denoiser, seen);
+  filter_long_ways(view, denoiser, seen);
   if (!is_any_positive(seen.alphas)) {
     seen.filtered = seen.light;
     return;

@@ -26,6 +26,7 @@ struct TransmittedLight {
   /// filtered.
   std::vector<glm::vec3> coats_behind;
   std::vector<float> coat_distances;
+  std::vector<glm::vec3> long_ways;  ///< Light of long ways, see kStageLongWay [W/(m^2 sr)].
   /// The first opaque surfaces behind glass; empty where these gather no light.
   std::vector<ShownBase> bases;
 
@@ -50,13 +51,16 @@ struct SeenThrough {
   // All transmitted light, divided by the tint of the pixel's own surface
   std::vector<glm::vec3> light;
   std::vector<glm::vec3> albedo;  ///< Factor from that light to the camera's radiance.
+  /// Light of long ways, divided likewise: single bright rays, which are spread over the glass.
+  /// Empty: it is part of `light`.
+  std::vector<glm::vec3> long_ways;
   // The lobes over which rough surfaces blur it, as lobes of coats that face away from the camera
   std::vector<glm::vec3> away_normals_ws, to_viewer_ws;
   std::vector<float> alphas;     ///< 0: the transmitted image is sharp.
   std::vector<float> distances;  ///< To what is seen [m]; below 0 where there is no lobe.
 
   std::vector<float> inverse_distances, coat_inverse_distances;  ///< See seen_inverse_distance().
-  std::vector<glm::vec3> filtered_emitters, filtered_coats, filtered;
+  std::vector<glm::vec3> filtered_emitters, filtered_coats, filtered_long_ways, filtered;
 
   /// Makes room for the traced rows' pixels. Those of a band, from index `first` on, show no
   /// transmitted light yet; those that it skips keep theirs for their neighbours, and add none.
@@ -81,6 +85,13 @@ inline bool filters_through(const FrameRequest& request) {
 inline bool gathers_behind_glass(const FrameRequest& request) {
   return gathers(request) && shown_gather_rays(request.settings) > 0 && filters_through(request);
 }
+
+/// Whether light that has come a long way through glass is filtered: that of volumes, within which
+/// it is reflected.
+bool filters_long_ways(const FrameRequest& request);
+
+/// The settings that it is filtered with.
+DenoiseSettings long_way_denoising();
 
 /// Whether some surface of the scene may spread the light that it transmits.
 bool has_rough_glass(const Scene& scene);

@@ -23,6 +23,7 @@ struct SeenThroughRecord {
   FloatArray coat_distances;
   Vec3Array light;
   Vec3Array albedo;
+  Vec3Array long_ways;  ///< Written where long_ways is 1, as below; see SeenThrough.
   LobeGuideArray lobes;
   FloatArray distances;
   // Written where the surfaces gather light; see ShownGatherPixels
@@ -36,6 +37,7 @@ struct SeenThroughRecord {
   Vec3Array filtered_gathered;
   Vec3Array filtered_emitters;
   Vec3Array filtered_coats;
+  Vec3Array filtered_long_ways;
   Vec3Array filtered;
 };
 LAMBENT_DEVICE_ARRAY(SeenThroughArray, SeenThroughRecord, 8)
@@ -47,7 +49,7 @@ struct StartThroughArguments {
   uint first;  ///< First pixel of the band among the traced ones.
   uint count;
   uint gathers;  ///< 1: surfaces behind glass gather light, as below.
-  uint padding;
+  uint long_ways;
 };
 
 /// Stores the light of the first opaque surfaces behind glass apart, see Glossy::keep_behind.
@@ -86,6 +88,8 @@ struct KeepThroughArguments {
   uint count;
   uint has_fog;
   uint gathers;
+  uint long_ways;  ///< 1: light of long ways is stored.
+  uint padding;
 };
 
 /// Averages the reciprocal distances to what lobes show over neighbouring pixels.
@@ -101,7 +105,7 @@ struct AddBehindArguments {
   uint count;
   uint draws;  ///< Samples of emitters; 0: none of their light was stored.
   uint gathers;
-  uint padding;
+  uint long_ways;
 };
 
 /// Adds filtered transmitted light to the layers.

@@ -123,11 +123,14 @@ std::uint64_t Glossy::look_through(const GlossySettings& settings, const GlossyR
   traced += follow_all(settings, static_cast<std::uint64_t>(going), kFirstBounceOfForks, kept);
   light.bases = bases_behind_;
   light.light.resize(rays_.size());
+  light.long_ways.resize(rays_.size());
   light.distances.resize(rays_.size());
   light.coats_behind.resize(rays_.size());
   light.coat_distances.resize(rays_.size());
   for (std::size_t i = 0; i < rays_.size(); ++i) {
     light.light[i] = rays_[i].radiance;
+    light.long_ways[i] = rays_[i].mirrored;
+    if (kept.seen == nullptr) light.light[i] += light.long_ways[i];
     light.distances[i] = rays_[i].distance;
     light.coats_behind[i] = rays_[i].apart;
     light.coat_distances[i] = coat_distances_[i];

@@ -52,7 +52,9 @@ void main() {
     }
   }
   vec3 transmitted = vec3(0.0f);
-  if ((args.has & kHasTransmission) != 0u) transmitted = args.transmitted.at[i].radiance;
+  if ((args.has & kHasTransmission) != 0u) {
+    transmitted = args.transmitted.at[i].radiance + args.transmitted.at[i].mirrored;
+  }
   layers.direct += seen * diffuse;
   layers.indirect += seen * indirect;
   layers.glossy += seen * glossy;

@@ -35,6 +35,11 @@ void main() {
   CoatRay ray = args.coat_rays.at[i];
   vec3 tint = filtered_tint(surface.transmission);
   args.seen.at[0].light.at[pixel] = ray.radiance / tint;
+  if (args.long_ways != 0u) {
+    args.seen.at[0].long_ways.at[pixel] = ray.mirrored / tint;
+  } else {
+    args.seen.at[0].light.at[pixel] += ray.mirrored / tint;
+  }
   args.seen.at[0].emitter_albedo.at[pixel] /= tint;
   if (args.seen.at[0].depths.at[pixel] > 0.0f) {
     vec3 coat_albedo = args.seen.at[0].coat_albedo.at[pixel];

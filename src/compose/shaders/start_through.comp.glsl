@@ -30,5 +30,6 @@ void main() {
   args.seen.at[0].coat_distances.at[pixel] = -1.0f;
   args.seen.at[0].distances.at[pixel] = -1.0f;
   args.seen.at[0].light.at[pixel] = vec3(0.0f);
+  if (args.long_ways != 0u) args.seen.at[0].long_ways.at[pixel] = vec3(0.0f);
   args.seen.at[0].lobes.at[pixel].sharpness = 0.0f;
 }

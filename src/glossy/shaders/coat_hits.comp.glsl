@@ -17,6 +17,7 @@ void main() {
   if (k >= args.count) return;
   uint i = args.pixels.at[k];
   CoatPath path = args.paths.at[k];
+  note_long_way(args.bounce, path);
   LitPointRecord point = args.points.at[k];
   PixelSurfaceRecord surface = args.surfaces.at[k];
   QueryRecord base = QueryRecord(point.position_ws, point.normal_ws, surface.to_viewer_ws,
