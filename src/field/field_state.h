@@ -102,7 +102,7 @@ struct IrradianceField::State {
   StaleProbes find_stale_probes(const World& world);
   /// Stores a copy of the light before edits, while light and surfels still belong to the same
   /// world.
-  void begin_edits(std::uint64_t revision, std::span<const int> traced);
+  void begin_edits(const World& world, const EditBudget& budget, std::span<const int> traced);
   /// Brings waiting probes up to date until the budget is spent, and removes them from
   /// `stale.waiting`. Returns the time that it took [ms].
   double apply_edits_in_slices(const World& world, const EditBudget& budget, StaleProbes& stale,

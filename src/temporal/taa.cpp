@@ -49,9 +49,11 @@ void TaaSequence::advance(int width, int height, const FrameChange& change) {
   // Things that go on moving are known to move in the previous frame, too; those that begin are
   // not. Worlds may be updated in every second frame alone
   const bool begins = change.moving > most_moving_;
+  // What moved before the first frame is not known to move in it
+  const std::size_t moving = has_history ? change.moving : 0;
   ++frames_since_most_;
-  if (change.moving >= most_moving_ || frames_since_most_ > kFramesUntilStill) {
-    most_moving_ = change.moving;
+  if (!has_history || moving >= most_moving_ || frames_since_most_ > kFramesUntilStill) {
+    most_moving_ = moving;
     frames_since_most_ = 0;
   }
   const uint still_frames = std::min(quiet_frames_, resting_frames_);

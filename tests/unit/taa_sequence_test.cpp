@@ -24,6 +24,21 @@ TEST(TaaSequence, ForgetsOtherSamplesWhereSomethingBeginsToMove) {
   EXPECT_FALSE(keeps(2));
 }
 
+// What made the scene's pose counts as moved before the first frame, in as many boxes as later.
+TEST(TaaSequence, TakesWhatMovesAfterTheFirstFramesToBegin) {
+  TaaSequence sequence;
+  const auto keeps = [&](const FrameChange& change) {
+    sequence.advance(8, 8, change);
+    return sequence.frame().keeps_others != 0;
+  };
+  keeps({.edited = true, .moving = 2});
+  EXPECT_TRUE(keeps({}));
+  EXPECT_FALSE(keeps({.edited = true, .moving = 2}));
+  EXPECT_TRUE(keeps({.edited = true, .moving = 2})) << "it goes on";
+  keeps({.same_size = false, .edited = true, .moving = 2});
+  EXPECT_FALSE(keeps({.edited = true, .moving = 2})) << "the first frame of another size";
+}
+
 TEST(TaaSequence, HoldsTheHistoryLessTheLongerNothingMoves) {
   TaaSequence sequence;
   sequence.advance(8, 8, {});

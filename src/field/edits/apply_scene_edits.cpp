@@ -26,6 +26,7 @@
 #include "field/edits/history_ratio.h"
 #include "field/edits/history_ratio_math.h"
 #include "field/edits/invalidation.h"
+#include "field/edits/moved_corrections.h"
 #include "field/edits/stale_probes.h"
 #include "field/field_state.h"
 #include "field/passes.h"
@@ -257,8 +258,11 @@ void IrradianceField::State::forget_corrections(EditProgress progress) {
   edits.forgot_at = updates + 1;
 }
 
-/// Stores the light before the edits, while light and surfels still belong to the same world.
-void IrradianceField::State::begin_edits(std::uint64_t revision, std::span<const int> traced) {
+/// Stores the light before the edits, while light and surfels still belong to the same world, and
+/// forgets the corrections that lookups after the edits must not read.
+void IrradianceField::State::begin_edits(const World& world, const EditBudget& budget,
+                                         std::span<const int> traced) {
+  const std::uint64_t revision = world.revision();
   if (!edits.pending.before.empty() && edits.pending.revision == revision) return;
   if (edits.pending.before.empty()) {
     refine_last_estimates(traced, *backend, data);
@@ -273,6 +277,12 @@ void IrradianceField::State::begin_edits(std::uint64_t revision, std::span<const
   edits.pending.updated.clear();
   edits.pending.direct_light = 0.0;
   edits.pending.revision = revision;
+  // Corrections are refined anew for that, which takes too long for updates that are held to a time
+  if (is_bounded(budget)) return;
+  if (const auto changes = world.changes_since(edits.applied_revision)) {
+    const std::vector<float> kept = corrections_kept_by_moves(*changes, data.store);
+    if (!kept.empty()) backend->forget_corrections(kept);
+  }
 }
 
 /// Brings waiting probes up to date, slice by slice, until the budget is spent. It works in slices
@@ -360,7 +370,7 @@ EditProgress IrradianceField::State::apply_scene_edits(const World& world, const
       order_stale_probes(revision, data.store, statuses, scheduling.importance, viewer_ws,
                          stale.waiting);
     }
-    begin_edits(revision, stale.traced);
+    begin_edits(world, budget, stale.traced);
     watch.finish(field_pass::kEdits);
     const double slices_ms = apply_edits_in_slices(world, budget, stale, statistics);
     watch.skip();
