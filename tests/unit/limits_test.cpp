@@ -162,7 +162,7 @@ TEST(Limits, FieldsBeyondThemAreRefused) {
                 HasSubstr("probe spacing"))
         << bad;
     EXPECT_THAT(error([&](FieldSettings& s) { s.volumes.emplace_back().size.y = bad; }),
-                HasSubstr("within 1e9 m"))
+                HasSubstr("within 0 to 1e9 m"))
         << bad;
     EXPECT_THAT(error([&](FieldSettings& s) { s.volumes.emplace_back().centre.x = bad; }),
                 HasSubstr("within 1e9 m"))
