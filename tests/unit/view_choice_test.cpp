@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -118,7 +119,8 @@ TEST(FirstView, ShowsAValleyByDay) {
 }
 
 /// A nave without its ceiling, 14 x 32 x 11 m, as somebody scanned it from within: walls that are
-/// sheets, with windows every 4 m along both sides, rows of columns and pews.
+/// sheets, those along the sides with their fronts outwards, as scanners do not know; with windows
+/// every 4 m, rows of columns and pews. All of it is one mesh.
 Scene roofless_nave() {
   Scene scene = test::scene_of({test::quad({-7, 0, 16}, {14, 0, 0}, {0, 0, -32}, 0)});
   const auto wall = [&](const glm::vec3& origin, const glm::vec3& along, float low, float high) {
@@ -130,7 +132,7 @@ Scene roofless_nave() {
   for (int bay = -4; bay < 4; ++bay) {
     const float z = 4.0f * static_cast<float>(bay);
     for (const float side : {-1.0f, 1.0f}) {
-      const float start = side < 0.0f ? z + 4.0f : z, way = side;
+      const float start = side < 0.0f ? z : z + 4.0f, way = -side;
       wall({7 * side, 0, start}, {0, 0, 2.6f * way}, 0, 11);
       wall({7 * side, 0, start + 2.6f * way}, {0, 0, 1.4f * way}, 0, 3.2f);
       wall({7 * side, 0, start + 2.6f * way}, {0, 0, 1.4f * way}, 8.2f, 11);
@@ -142,7 +144,14 @@ Scene roofless_nave() {
                 test::box_mesh(pew - glm::vec3(1.2f, 0, 0.2f), pew + glm::vec3(1.2f, 0.9f, 0.2f)));
     }
   }
-  return scene;
+  Mesh joined;
+  for (const Mesh& part : scene.meshes) {
+    const auto first = static_cast<std::uint32_t>(joined.positions.size());
+    joined.positions.insert(joined.positions.end(), part.positions.begin(), part.positions.end());
+    joined.normals.insert(joined.normals.end(), part.normals.begin(), part.normals.end());
+    for (const glm::uvec3& t : part.triangles) joined.triangles.push_back(t + first);
+  }
+  return test::scene_of({std::move(joined)});
 }
 
 TEST(FirstView, StandsInAChurchThatHasLostItsCeiling) {
