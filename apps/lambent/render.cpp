@@ -93,11 +93,13 @@ Expected<void> render(const RenderOptions& options) {
   begin_step("preparing the scene for rays");
   World world(scene, *device);
   const float aspect = static_cast<float>(size->x) / static_cast<float>(size->y);
-  const Expected<View> view = choose_view(options.scene, world, aspect);
+  const PosedScene unlit{scene, world, *animation, false};
+  const Expected<View> view =
+      choose_view(options.scene, world, aspect, poses_of_sequence(options, unlit));
   if (!view) return tl::unexpected(view.error());
   std::optional<FirstLight> chosen;
   if (options.frames > 0 && options.scene.light.light == "auto" && !opened->sky_dome) {
-    const auto suits = choose_light_of_sequence(options, {scene, world, *animation, false}, *view);
+    const auto suits = choose_light_of_sequence(options, unlit, *view);
     if (!suits) return tl::unexpected(suits.error());
     chosen = *suits;
   }

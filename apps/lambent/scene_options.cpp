@@ -124,7 +124,8 @@ Expected<Camera> camera_of_scene(const SceneOptions& options, const Scene& scene
   return with_asked_fov(options, std::move(*camera));
 }
 
-Expected<View> choose_view(const SceneOptions& options, const World& world, float aspect) {
+Expected<View> choose_view(const SceneOptions& options, const World& world, float aspect,
+                           const Poses& poses) {
   const Scene& scene = world.scene();
   // Written so that NaN fails
   const float fov_degrees = options.fov_degrees.value_or(kDefaultFov);
@@ -153,7 +154,7 @@ Expected<View> choose_view(const SceneOptions& options, const World& world, floa
           "No camera of the scene sees any of its surfaces, and another view was chosen "
           "(--camera 0 keeps the first).");
     }
-    const Expected<FirstView> view = first_view(world, {vertical_fov, aspect});
+    const Expected<FirstView> view = first_view(world, {vertical_fov, aspect}, poses);
     if (!view) return tl::unexpected(view.error());
     return View{view->camera, view->inside ? View::From::inside : View::From::outside,
                 view->distance};

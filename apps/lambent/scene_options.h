@@ -6,6 +6,7 @@
 #include <string>
 
 #include "lambent/error.h"
+#include "lambent/first_picture.h"
 #include "lambent/light_options.h"
 #include "lambent/scene.h"
 
@@ -59,8 +60,10 @@ struct View {
 
 /// The camera that the options ask for, else the scene's first that sees any of its surfaces, else
 /// one that shows the scene (lambent/first_picture.h), with a warning where the scene has cameras.
-/// `aspect` is the picture's width over its height.
-Expected<View> choose_view(const SceneOptions& options, const World& world, float aspect);
+/// `aspect` is the picture's width over its height. A view that the program chooses from outside
+/// shows the whole object in all of the `poses`.
+Expected<View> choose_view(const SceneOptions& options, const World& world, float aspect,
+                           const Poses& poses = {});
 
 /// The camera of the scene that the options name, else its first, of which there must be one.
 Expected<Camera> camera_of_scene(const SceneOptions& options, const Scene& scene);

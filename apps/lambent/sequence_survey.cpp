@@ -78,6 +78,17 @@ Expected<WorldChanges> pose_at(const PosedScene& posed, double time_s) {
   return posed.world.update();
 }
 
+Poses poses_of_sequence(const RenderOptions& options, const PosedScene& posed) {
+  if (options.frames == 0 || posed.scene.animations.empty()) return {};
+  const int places = std::min(options.frames, kSurveyed);
+  return {places, [&options, &posed, places](int place) -> Expected<void> {
+            const double frame = surveyed_frame(options, place, places);
+            const auto changes = pose_at(posed, time_of_frame(options, frame));
+            if (!changes) return tl::unexpected(changes.error());
+            return {};
+          }};
+}
+
 Expected<Camera> camera_of_pose(const RenderOptions& options, const View& first,
                                 const Scene& scene) {
   if (first.from != View::From::scene || scene.animations.empty()) return first.camera;

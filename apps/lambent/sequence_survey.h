@@ -30,6 +30,9 @@ double time_of_frame(const RenderOptions& options, double frame);
 /// Poses a scene and updates its world.
 Expected<WorldChanges> pose_at(const PosedScene& posed, double time_s);
 
+/// A few poses of a sequence, the first frame's first. They refer to both arguments.
+Poses poses_of_sequence(const RenderOptions& options, const PosedScene& posed);
+
 /// The view of a pose: a camera of the scene follows the animation; any other does not move, nor
 /// does any where nothing is animated.
 Expected<Camera> camera_of_pose(const RenderOptions& options, const View& first,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -37,6 +38,21 @@ struct FirstView {
 /// or, on a wide ground, one of what stands there (docs/cli.md has the rules). Traces 20,000 to
 /// 500,000 rays. The same world gives the same view. Fails on settings out of range.
 Expected<FirstView> first_view(const World& world, const FirstViewSettings& settings = {});
+
+/// Poses of an animated scene, which a sequence shows from one camera.
+struct Poses {
+  int count = 1;  ///< >= 1.
+  /// Poses the scene (see lambent/animation.h) and updates its world, for an index below `count`;
+  /// not called for a single pose, which is the one that the scene is in.
+  std::function<Expected<void>(int)> take;
+};
+
+/// As first_view(), for a sequence: a view from outside is chosen by what it shows in all poses,
+/// and has the object in its frame in each of them. Whether it is one, and views from inside, are
+/// chosen in pose 0, which the world must be in, and is in afterwards. Traces 13,000 rays more for
+/// each pose. Fails where a pose cannot be taken, too.
+Expected<FirstView> first_view(const World& world, const FirstViewSettings& settings,
+                               const Poses& poses);
 
 /// Whether a picture of this aspect, width over height, shows any surface: by a grid of rays, 128
 /// of them along each row.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <span>
 #include <utility>
 
 #include "first_picture/daylight.h"
@@ -84,9 +85,14 @@ constexpr float kGroundBand = 0.03f;
 // of a scene that is no larger than a statue [m].
 constexpr float kMinPlinthShare = 0.25f, kMaxStatue = 4.0f;
 // A scene flatter than this share of its width is a ground itself. So is a terrain, which is
-// higher, but large [m] and without holes in its footprint.
+// higher, but large [m] and without holes in its footprint, or a sheet that covers at least the
+// first share of that: tiles of surveys are cut along any line. A round one covers 0.78, an L 0.55.
+// Of the rays down onto a sheet, at least the second share meets its front and nothing below it.
 constexpr float kFlatShare = 0.1f;
 constexpr float kTerrainShare = 0.4f, kMinTerrain = 20.0f;
+constexpr float kMinTileCover = 0.3f, kMinSheetShare = 0.9f;
+// Rays go on this share of their distance beyond a hit.
+constexpr float kBelowTerrain = 1e-4f;
 
 // Directions in which the sun's light may travel, the customary one first: from above one shoulder
 // of an observer who looks along -Z.
@@ -107,6 +113,21 @@ bool has_lights_or_sky(const Scene& scene) {
   return scene.environment.radiance != glm::vec3(0.0f) || has_lights(scene);
 }
 
+/// Whether nearly all rays that meet a surface meet its front, and no other behind it.
+bool meet_a_sheet(const World& world, std::vector<Ray> rays, std::span<const Hit> first) {
+  float met = 0.0f, sheet = 0.0f;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    rays[i].t_min = first[i].missed() ? 0.0f : first[i].distance * (1.0f + kBelowTerrain);
+  }
+  const std::vector<Hit> second = trace(world, rays);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (first[i].missed()) continue;
+    met += 1.0f;
+    if (second[i].missed() && !shows_back(world.scene(), first[i])) sheet += 1.0f;
+  }
+  return sheet >= kMinSheetShare * met;
+}
+
 /// Whether a scene is a piece of ground with things on it, rather than a thing. The bottom of a
 /// housing is no ground.
 bool has_ground(const World& world, const Bounds& bounds) {
@@ -122,13 +143,18 @@ bool has_ground(const World& world, const Bounds& bounds) {
                     {0.0f, -1.0f, 0.0f}});
   }
   std::vector<float> heights;
-  for (const Hit& hit : trace(world, rays)) {
+  const std::vector<Hit> hits = trace(world, rays);
+  for (const Hit& hit : hits) {
     if (!hit.missed()) heights.push_back(bounds.max.y + size.y - hit.distance);
   }
   constexpr float kRays = kRaysAlongFootprint * kRaysAlongFootprint;
-  if (static_cast<float>(heights.size()) < kMinFootprint * kRays) return false;
+  const float cover = static_cast<float>(heights.size()) / kRays;
   const float width = std::min(size.x, size.z);
-  if (width > kMinTerrain && size.y < kTerrainShare * width) return true;
+  if (width > kMinTerrain && size.y < kTerrainShare * width &&
+      (cover >= kMinFootprint || (cover >= kMinTileCover && meet_a_sheet(world, rays, hits)))) {
+    return true;
+  }
+  if (cover < kMinFootprint) return false;
 
   // Find the band of heights that holds most hits
   std::sort(heights.begin(), heights.end());

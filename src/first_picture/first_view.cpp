@@ -102,6 +102,11 @@ bool sees_a_surface(const World& world, const Camera& camera, float aspect) {
 }
 
 Expected<FirstView> first_view(const World& world, const FirstViewSettings& settings) {
+  return first_view(world, settings, Poses{});
+}
+
+Expected<FirstView> first_view(const World& world, const FirstViewSettings& settings,
+                               const Poses& poses) {
   if (const Expected<void> fine = check(settings); !fine) return tl::unexpected(fine.error());
   const float object_fov = settings.vertical_fov.value_or(glm::radians(kObjectFov));
   const float room_fov = settings.vertical_fov.value_or(glm::radians(kRoomFov));
@@ -115,7 +120,10 @@ Expected<FirstView> first_view(const World& world, const FirstViewSettings& sett
     return seen_from(world, *inside, settings.aspect, true);
   }
   const ViewedFrom from = is_open_housing(survey) ? ViewedFrom::above : ViewedFrom::anywhere;
-  const Camera outside = outside_view(world, subject, from, object_fov, settings.aspect);
+  const Expected<Camera> all =
+      outside_view(world, subject, from, poses, object_fov, settings.aspect);
+  if (!all) return tl::unexpected(all.error());
+  const Camera& outside = *all;
   if (const auto site = find_site(world, subject)) {
     if (const auto view = view_on_site(world, subject, *site, outside, room_fov, settings.aspect)) {
       return seen_from(world, *view, settings.aspect, true);

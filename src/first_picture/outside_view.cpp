@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <glm/gtc/constants.hpp>
 #include <vector>
 
@@ -58,6 +59,17 @@ struct Extents {
   }
 };
 
+/// Measures the world in each pose, and in the first one last.
+Expected<void> in_each(const Poses& poses, const std::function<void()>& measure) {
+  for (int i = poses.count - 1; i >= 0; --i) {
+    if (poses.count > 1) {
+      if (const Expected<void> taken = poses.take(i); !taken) return taken;
+    }
+    measure();
+  }
+  return {};
+}
+
 /// A view direction, with the tangents of the part of its frame that is to be filled.
 struct Framing {
   glm::mat3 view_from_world;  // rotation alone
@@ -85,8 +97,9 @@ Camera fit(const Framing& framing, const Extents& extents, const glm::vec3& cent
            float vertical_fov) {
   const float across = (extents.right + extents.left) / (2.0f * framing.tan_x);
   const float up = (extents.up + extents.down) / (2.0f * framing.tan_y);
+  const float away = std::max(across, up);
   const glm::vec3 eye(0.5f * (extents.right - extents.left), 0.5f * (extents.up - extents.down),
-                      std::max(across, up));
+                      away > 0.0f ? away : kDistanceToPoint);
   const glm::mat3 world_from_view = glm::transpose(framing.view_from_world);
   Camera camera;
   camera.vertical_fov = vertical_fov;
@@ -103,9 +116,9 @@ Camera fit_points(const Framing& framing, const std::vector<SurfaceSample>& poin
   return fit(framing, extents, center, vertical_fov);
 }
 
-/// Fits every vertex of the subject.
-Camera fit_vertices(const Framing& framing, const Scene& scene, const Subject& subject,
-                    const glm::vec3& center, float vertical_fov) {
+/// Extents of every vertex of the subject.
+Extents vertex_extents(const Framing& framing, const Scene& scene, const Subject& subject,
+                       const glm::vec3& center) {
   std::vector<Extents> each(subject.instances.size());
   parallel_chunks(each.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -118,7 +131,7 @@ Camera fit_vertices(const Framing& framing, const Scene& scene, const Subject& s
   });
   Extents extents;
   for (const Extents& e : each) extents.add(e);
-  return fit(framing, extents, center, vertical_fov);
+  return extents;
 }
 
 /// Statistics of a candidate's picture.
@@ -126,7 +139,15 @@ struct Judgement {
   float seen = 0.0f;   ///< Share of the surface points that are visible; grazing ones count less.
   float cover = 0.0f;  ///< Share of the frame that is not sky.
   float back = 0.0f;   ///< Share of that which shows backs of surfaces.
+
+  void add(const Judgement& other) {
+    seen += other.seen;
+    cover += other.cover;
+    back += other.back;
+  }
 };
+/// One for each of kStands; sums over poses.
+using StandJudgements = std::array<Judgement, kStands.size()>;
 
 Judgement judge(const World& world, const Camera& camera, const std::vector<SurfaceSample>& points,
                 float aspect) {
@@ -161,47 +182,71 @@ Judgement judge(const World& world, const Camera& camera, const std::vector<Surf
   return judgement;
 }
 
-}  // namespace
+/// The direction to a candidate; unit.
+glm::vec3 toward(const Stand& stand) {
+  return direction_from_angles(glm::radians(stand.azimuth), glm::radians(stand.elevation));
+}
 
-Camera outside_view(const World& world, const Subject& subject, ViewedFrom from, float vertical_fov,
-                    float aspect) {
-  const Scene& scene = world.scene();
-  const glm::vec3 center = 0.5f * (subject.bounds.min + subject.bounds.max);
-  if (diagonal(subject.bounds) == 0.0f) {
-    const glm::vec3 toward_eye =
-        direction_from_angles(glm::radians(kStands[0].azimuth), glm::radians(kStands[0].elevation));
-    return look_at(center + kDistanceToPoint * toward_eye, center, vertical_fov);
-  }
-
-  // Judge all candidates, each relative to the best of them
+/// What each candidate shows of the subject in the world's pose.
+StandJudgements judge_stands(const World& world, const Subject& subject, float vertical_fov,
+                             float aspect) {
   const std::vector<SurfaceSample> points =
-      sample_surfaces(scene, subject.instances, kJudgedPoints);
-  std::array<Judgement, kStands.size()> judgements;
-  float most_seen = 0.0f, most_cover = 0.0f;
+      sample_surfaces(world.scene(), subject.instances, kJudgedPoints);
+  const glm::vec3 center = 0.5f * (subject.bounds.min + subject.bounds.max);
+  StandJudgements judgements{};
+  if (points.empty()) return judgements;  // nothing has an area
   for (std::size_t i = 0; i < kStands.size(); ++i) {
-    const glm::vec3 toward_eye =
-        direction_from_angles(glm::radians(kStands[i].azimuth), glm::radians(kStands[i].elevation));
-    const Framing framing = make_framing(toward_eye, vertical_fov, aspect);
+    const Framing framing = make_framing(toward(kStands[i]), vertical_fov, aspect);
     judgements[i] = judge(world, fit_points(framing, points, center, vertical_fov), points, aspect);
-    most_seen = std::max(most_seen, judgements[i].seen);
-    most_cover = std::max(most_cover, judgements[i].cover);
+  }
+  return judgements;
+}
+
+/// The best candidate, each being judged relative to the most that any shows. `poses`: number of
+/// judgements in each sum.
+const Stand& best_stand(const StandJudgements& sums, ViewedFrom from, int poses) {
+  float most_seen = 0.0f, most_cover = 0.0f;
+  for (const Judgement& sum : sums) {
+    most_seen = std::max(most_seen, sum.seen);
+    most_cover = std::max(most_cover, sum.cover);
   }
   std::size_t best = 0;
   float best_score = -kInfiniteDistance;
   for (std::size_t i = 0; i < kStands.size(); ++i) {
     if (from == ViewedFrom::above && kStands[i].elevation < kMinSteep) continue;
-    const float seen = most_seen > 0.0f ? judgements[i].seen / most_seen : 0.0f;
-    const float cover = most_cover > 0.0f ? judgements[i].cover / most_cover : 0.0f;
-    const float score = kSeenWeight * seen + kCoverWeight * cover -
-                        kShownBackWeight * judgements[i].back - kStands[i].handicap;
+    const float seen = most_seen > 0.0f ? sums[i].seen / most_seen : 0.0f;
+    const float cover = most_cover > 0.0f ? sums[i].cover / most_cover : 0.0f;
+    const float back = sums[i].back / static_cast<float>(poses);
+    const float score =
+        kSeenWeight * seen + kCoverWeight * cover - kShownBackWeight * back - kStands[i].handicap;
     if (score <= best_score) continue;
     best_score = score;
     best = i;
   }
-  const glm::vec3 toward_eye = direction_from_angles(glm::radians(kStands[best].azimuth),
-                                                     glm::radians(kStands[best].elevation));
-  return fit_vertices(make_framing(toward_eye, vertical_fov, aspect), scene, subject, center,
-                      vertical_fov);
+  return kStands[best];
+}
+
+}  // namespace
+
+Expected<Camera> outside_view(const World& world, const Subject& subject, ViewedFrom from,
+                              const Poses& poses, float vertical_fov, float aspect) {
+  const glm::vec3 center = 0.5f * (subject.bounds.min + subject.bounds.max);
+  // Judge all candidates in each pose, and choose the direction that suits all of them
+  StandJudgements sums{};
+  const Expected<void> judged = in_each(poses, [&] {
+    const StandJudgements here = judge_stands(world, subject, vertical_fov, aspect);
+    for (std::size_t i = 0; i < kStands.size(); ++i) sums[i].add(here[i]);
+  });
+  if (!judged) return tl::unexpected(judged.error());
+
+  // Fit what all poses show into the frame
+  const Framing framing =
+      make_framing(toward(best_stand(sums, from, poses.count)), vertical_fov, aspect);
+  Extents extents;
+  const Expected<void> measured =
+      in_each(poses, [&] { extents.add(vertex_extents(framing, world.scene(), subject, center)); });
+  if (!measured) return tl::unexpected(measured.error());
+  return fit(framing, extents, center, vertical_fov);
 }
 
 }  // namespace lambent

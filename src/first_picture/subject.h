@@ -41,10 +41,18 @@ bool is_open_housing(const SpaceSurvey& survey);
 
 /// Whether a scene is a shell around most of its contents: by the share of its box that is enclosed
 /// air, and by the share of its surfaces whose front is visible from outside, of which a scene with
-/// another height than rooms for people may show less. Housings are no rooms.
+/// another height than rooms for people may show less. Housings are no rooms, nor are scenes of
+/// such a height that their animations open.
 bool is_room(const World& world, const Subject& subject, const SpaceSurvey& survey);
 inline bool is_room(const World& world, const Subject& subject) {
   return !subject.bounds.empty() && is_room(world, subject, survey_space(world, subject.bounds));
 }
+/// As is_room(), whatever animations do.
+bool is_room_in_pose(const World& world, const Subject& subject, const SpaceSurvey& survey);
+
+/// Whether animations open what is closed in the world's pose, such as a case with a lid: whether
+/// the subject is no room at rest, or at the beginning, in the middle or at the end of them. Copies
+/// the scene where it has animations.
+bool opens(const World& world, const Subject& subject);
 
 }  // namespace lambent

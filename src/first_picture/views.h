@@ -21,9 +21,10 @@ enum class ViewedFrom : std::uint8_t {
   above,  ///< Steeply: into a housing.
 };
 
-/// The best view of the subject from outside that has all of it in the frame.
-Camera outside_view(const World& world, const Subject& subject, ViewedFrom from, float vertical_fov,
-                    float aspect);
+/// The best view of the subject from outside that has all of it in the frame, in each of the poses;
+/// fails where one cannot be taken.
+Expected<Camera> outside_view(const World& world, const Subject& subject, ViewedFrom from,
+                              const Poses& poses, float vertical_fov, float aspect);
 
 /// The best view at eye height from one of the sheltered places; none where all of them would face
 /// a wall. `bounds` contains the room.

@@ -143,6 +143,35 @@ TEST_F(RenderSequence, HasTheSkyThatAnOpenDoorShows) {
   EXPECT_THAT(opens.errors, HasSubstr("under a sky in proportion to its suns"));
 }
 
+// A case of 6 cm that is shut in its first frame; its lid rises by 9 cm and turns upright.
+TEST_F(RenderSequence, ShowsACaseThatOpensFromOutsideInAllFrames) {
+  using test::quad;
+  Scene scene = test::scene_of({quad({0, 0, 0}, {0, 0, 0.06f}, {0.09f, 0, 0}, 0),
+                                quad({0, 0, 0}, {0.09f, 0, 0}, {0, 0.06f, 0}, 0),
+                                quad({0.09f, 0, 0.06f}, {-0.09f, 0, 0}, {0, 0.06f, 0}, 0),
+                                quad({0, 0, 0.06f}, {0, 0, -0.06f}, {0, 0.06f, 0}, 0),
+                                quad({0.09f, 0, 0}, {0, 0, 0.06f}, {0, 0.06f, 0}, 0),
+                                quad({0, 0.06f, 0}, {0.09f, 0, 0}, {0, 0, 0.06f}, 0)});
+  scenes::Track lid;
+  lid.index = 5;
+  lid.keyframes = {{0.0f, {}, {1, 0, 0, 0}},
+                   {1.0f, {0, 0.09f, 0}, {0.7071068f, -0.7071068f, 0, 0}}};
+  ASSERT_TRUE(scenes::write_glb(scene, directory.file("a.glb"), {{"opens", {lid}}}));
+  const std::string quick = "render " + directory.file("a.glb") +
+                            " --method direct --size 48x27 --samples 1 -o " +
+                            directory.file("a.png");
+  const ProgramResult still = run_program(quick + " --time 0");
+  const ProgramResult sequence = run_program(quick + " --frames 3 --fps 2");
+  const auto camera_of = [](const ProgramResult& result) {
+    const std::size_t at = result.errors.find("camera: the whole object");
+    return at == std::string::npos ? ""
+                                   : result.errors.substr(at, result.errors.find('\n', at) - at);
+  };
+  EXPECT_NE(camera_of(still), "") << still.errors;
+  EXPECT_NE(camera_of(sequence), "") << sequence.errors;
+  EXPECT_NE(camera_of(sequence), camera_of(still)) << "the risen lid needs more of the frame";
+}
+
 // A lift that climbs 8 m in a second, in a shaft of 2 x 2 x 12 m with one open side on grounds of
 // 400 m; after 0.15 s, its sun is 2,000 times as strong as before.
 TEST_F(RenderSequence, OfALiftAtDawnIsExposedAndLitForAllOfItsWay) {

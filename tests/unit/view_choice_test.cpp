@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "first_picture/survey.h"
 #include "lambent/first_picture.h"
@@ -113,6 +116,53 @@ TEST(FirstView, ShowsAValleyByDay) {
   const World world(scene);
   ASSERT_GE(survey_space(world, world_bounds(scene)).enclosed_share, 0.25f);
   EXPECT_EQ(choose_first_light(world, first_view(world).value().camera), FirstLight::sun);
+}
+
+/// A nave without its ceiling, 14 x 32 x 11 m, as somebody scanned it from within: walls that are
+/// sheets, those along the sides with their fronts outwards, as scanners do not know; with windows
+/// every 4 m, rows of columns and pews. All of it is one mesh.
+Scene roofless_nave() {
+  Scene scene = test::scene_of({test::quad({-7, 0, 16}, {14, 0, 0}, {0, 0, -32}, 0)});
+  const auto wall = [&](const glm::vec3& origin, const glm::vec3& along, float low, float high) {
+    const glm::vec3 foot = origin + glm::vec3(0, low, 0), up(0, high - low, 0);
+    test::add(scene, test::quad(foot, along, up, 0));
+  };
+  wall({-7, 0, -16}, {14, 0, 0}, 0, 13);
+  wall({7, 0, 16}, {-14, 0, 0}, 0, 11);
+  for (int bay = -4; bay < 4; ++bay) {
+    const float z = 4.0f * static_cast<float>(bay);
+    for (const float side : {-1.0f, 1.0f}) {
+      const float start = side < 0.0f ? z : z + 4.0f, way = -side;
+      wall({7 * side, 0, start}, {0, 0, 2.6f * way}, 0, 11);
+      wall({7 * side, 0, start + 2.6f * way}, {0, 0, 1.4f * way}, 0, 3.2f);
+      wall({7 * side, 0, start + 2.6f * way}, {0, 0, 1.4f * way}, 8.2f, 11);
+      const glm::vec3 column(3.6f * side, 0, z + 2);
+      test::add(scene, test::box_mesh(column - glm::vec3(0.35f, 0, 0.35f),
+                                      column + glm::vec3(0.35f, 6.8f, 0.35f)));
+      const glm::vec3 pew(1.6f * side, 0, 0.7f * z + 3);
+      test::add(scene,
+                test::box_mesh(pew - glm::vec3(1.2f, 0, 0.2f), pew + glm::vec3(1.2f, 0.9f, 0.2f)));
+    }
+  }
+  Mesh joined;
+  for (const Mesh& part : scene.meshes) {
+    const auto first = static_cast<std::uint32_t>(joined.positions.size());
+    joined.positions.insert(joined.positions.end(), part.positions.begin(), part.positions.end());
+    joined.normals.insert(joined.normals.end(), part.normals.begin(), part.normals.end());
+    for (const glm::uvec3& t : part.triangles) joined.triangles.push_back(t + first);
+  }
+  return test::scene_of({std::move(joined)});
+}
+
+TEST(FirstView, StandsInAChurchThatHasLostItsCeiling) {
+  const Scene scene = roofless_nave();
+  const World world(scene);
+  const FirstView view = first_view(world).value();
+  ASSERT_TRUE(view.inside);
+  const glm::vec3 eye(view.camera.world_from_view[3]);
+  EXPECT_NEAR(eye.y, 1.6f, 0.05f);
+  EXPECT_GT(std::abs(view.camera.world_from_view[2].z), 0.7f) << "along the nave";
+  EXPECT_EQ(choose_first_light(world, view.camera), FirstLight::sun);
 }
 
 /// A car with panes all around, scaled.
