@@ -71,8 +71,8 @@ struct FrameSettings {
   /// Whether gathered light, traced reflections, the light through glass and direct light of
   /// emissive surfaces are filtered (lambent/denoise.h). Light of directional, point and spot
   /// lights has no noise and is not filtered. Parts of a picture then need 63 more rows on each
-  /// side, which are traced, too, and each pixel takes 360 bytes, and 160 more where surfaces are
-  /// smooth enough to be mirrors. With glass these are 65 rows, with rough glass 130, and 660
+  /// side, which are traced, too, and each pixel takes 360 bytes, and 232 more where surfaces are
+  /// smooth enough to be mirrors. With glass these are 65 rows, with rough glass 130, and 664
   /// bytes.
   bool denoise = false;
   /// Number of the renderer's pictures over which light is averaged before it is filtered, 1 to

@@ -5,8 +5,8 @@
 #include <cassert>
 #include <span>
 
-#include "compose/gather/excess.h"
 #include "compose/frame_tasks.h"
+#include "compose/gather/excess.h"
 #include "compose/pixel_math.h"
 #include "core/parallel.h"
 
@@ -41,19 +41,23 @@ void filter_mirrored(DenoiseView view, FilteredPixels& pixels) {
 /// Filters the light of emitters on the surfaces that mirrors show, and what these gather.
 void filter_mirrored_bases(DenoiseView view, FilteredPixels& pixels) {
   MirroredBasePixels& bases = pixels.mirrored_bases;
-  const auto is_shown = [](float depth) { return depth > 0.0f; };
-  const bool any = std::any_of(bases.depths.begin(), bases.depths.end(), is_shown);
-  bases.filtered_emitters.resize(any ? bases.emitters.size() : 0);
+  const auto is_positive = [](float value) { return value > 0.0f; };
+  bases.filtered_emitters.clear();
   bases.gather.filtered.clear();
-  if (!any) return;
+  if (std::ranges::none_of(bases.depths, is_positive)) return;
   view.positions_ws = bases.positions_ws;
   view.normals_ws = bases.normals_ws;
   view.depths = bases.depths;
-  [[maybe_unused]] const Expected<void> done = pixels.denoiser.filter(
-      view,
-      {.light = bases.emitters, .variance = bases.emitter_variance, .levels = bases.emitter_levels},
-      emitter_denoising(), bases.filtered_emitters);
-  assert(done);  // sizes are the view's
+  if (std::ranges::any_of(bases.emitter_levels, is_positive)) {
+    bases.filtered_emitters.resize(bases.emitters.size());
+    [[maybe_unused]] const Expected<void> done =
+        pixels.denoiser.filter(view,
+                               {.light = bases.emitters,
+                                .variance = bases.emitter_variance,
+                                .levels = bases.emitter_levels},
+                               emitter_denoising(), bases.filtered_emitters);
+    assert(done);  // sizes are the view's
+  }
   bases.gather.filter(view, pixels.denoiser);
 }
 
@@ -90,8 +94,11 @@ void show_coat(const FilteredCoats& coats, std::size_t i, std::size_t pixel, flo
 /// Adds the filtered light of what a pixel's mirror shows to its layers.
 void show_mirrored_base(const MirroredBasePixels& bases, std::size_t i, std::size_t pixel,
                         float share, Layers& layers) {
-  if (bases.filtered_emitters.empty() || bases.depths[i] <= 0.0f) return;
-  vec3 glossy = bases.emitter_albedo[i] * bases.filtered_emitters[i];
+  if (bases.depths.empty() || bases.depths[i] <= 0.0f) return;
+  vec3 glossy(0.0f);
+  if (!bases.filtered_emitters.empty()) {
+    glossy += bases.emitter_albedo[i] * bases.filtered_emitters[i];
+  }
   if (!bases.gather.filtered.empty()) {
     glossy += bases.gather.albedo[i] * bases.gather.filtered[i];
   }

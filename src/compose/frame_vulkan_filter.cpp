@@ -199,7 +199,7 @@ void FramePassesVulkan::denoise(float share) {
                                             coats ? 1u : 0u,
                                             filters_clearcoats(*request_) ? 1u : 0u,
                                             filters_mirrored_light(*request_) ? 1u : 0u,
-                                            (kept & kKeepsMirroredBases) != 0u ? 1u : 0u,
+                                            kept != 0u && reflected_draws() > 0 ? 1u : 0u,
                                             (kept & kGathersInMirrors) != 0u ? 1u : 0u,
                                             0u};
     to.run(kernels_.add_filtered, arguments, static_cast<std::uint32_t>(shown.count));

@@ -54,7 +54,8 @@ struct SeenThroughBuffers {
   vulkan::Buffer light, albedo, lobes, distances;
   vulkan::Buffer filtered_emitters, filtered_coats, filtered;
   vulkan::Buffer geometric_normals_ws, gathered, gathered_variance, excess, looked_up;
-  vulkan::Buffer indirect_albedo, filtered_gathered, long_ways, filtered_long_ways;
+  vulkan::Buffer indirect_albedo, filtered_gathered, long_ways, glass_depths;
+  vulkan::Buffer filtered_long_ways;
 };
 
 /// Rays that gather light, their hits, and the field's irradiance there.
@@ -118,7 +119,7 @@ struct FrameMemory {
   vulkan::Buffer coats, coat_guides, coat_points, coat_surfaces, coat_rays, mirrored, own_rays;
   vulkan::Buffer mirrored_bases;
   // What the band's pixels show in mirrors or behind glass, and how many points gather light
-  vulkan::Buffer shown_points, shown_surfaces, shown_points_found;
+  vulkan::Buffer shown_points, shown_surfaces, shown_queries, shown_points_found;
   vulkan::Buffer looked_up_in_mirrors, looked_up_behind, bases_behind;
   PathBuffers path_lists[2];
   PathBuffers forks;  // reflected branches, traced later

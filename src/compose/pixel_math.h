@@ -88,27 +88,27 @@ LAMBENT_FN float filtered_variance(FilteredEmitter emitter, float variance) {
 LAMBENT_FN ShownBase shown_base(vec3 position_ws, vec3 normal_ws, vec3 geometric_normal_ws,
                                 float gi_share, Reflectance surface, vec3 to_viewer_ws,
                                 float viewer_distance, CoatPath path, bool gathers) {
-  ShownBase mirrored = no_shown_base();
-  mirrored.position_ws = position_ws;
-  mirrored.normal_ws = normal_ws;
-  mirrored.shown = 1u;
-  mirrored.gi_share = gi_share;
-  mirrored.geometric_normal_ws = geometric_normal_ws;
-  mirrored.viewer_distance = viewer_distance;
-  mirrored.to_viewer_ws = to_viewer_ws;
-  if (!gathers || gi_share <= 0.0f) return mirrored;
-  mirrored.indirect_albedo =
+  ShownBase base = no_shown_base();
+  base.position_ws = position_ws;
+  base.normal_ws = normal_ws;
+  base.shown = 1u;
+  base.gi_share = gi_share;
+  base.geometric_normal_ws = geometric_normal_ws;
+  base.viewer_distance = viewer_distance;
+  base.to_viewer_ws = to_viewer_ws;
+  if (!gathers || gi_share <= 0.0f) return base;
+  base.indirect_albedo =
       path.throughput * reflected_indirect(surface, dot(normal_ws, to_viewer_ws), vec3(1.0f));
-  return mirrored;
+  return base;
 }
 
 /// Adds the light of emitters to that record. `variance`: see filtered_variance().
 LAMBENT_FN void add_emitters(FilteredEmitter emitter, float variance, CoatPath path,
-                             LAMBENT_INOUT(ShownBase) mirrored) {
-  mirrored.level = emitter.level;
-  mirrored.variance = filtered_variance(emitter, variance);
-  mirrored.light = emitter.light;
-  mirrored.emitter_albedo = path.throughput * emitter.albedo;
+                             LAMBENT_INOUT(ShownBase) base) {
+  base.level = emitter.level;
+  base.variance = filtered_variance(emitter, variance);
+  base.light = emitter.light;
+  base.emitter_albedo = path.throughput * emitter.albedo;
 }
 
 /// FilteredCoats::variance of filtered light of a coat.

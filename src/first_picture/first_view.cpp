@@ -107,6 +107,9 @@ Expected<FirstView> first_view(const World& world, const FirstViewSettings& sett
 
 Expected<FirstView> first_view(const World& world, const FirstViewSettings& settings,
                                const Poses& poses) {
+  if (poses.count < 1 || (poses.count > 1 && !poses.take)) {
+    return fail("", "poses", "must be one, or more with a function that takes them");
+  }
   if (const Expected<void> fine = check(settings); !fine) return tl::unexpected(fine.error());
   const float object_fov = settings.vertical_fov.value_or(glm::radians(kObjectFov));
   const float room_fov = settings.vertical_fov.value_or(glm::radians(kRoomFov));

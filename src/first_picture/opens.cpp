@@ -30,6 +30,7 @@ bool opens(const World& world, const Subject& subject) {
   for (const Animation& animation : scene.animations) {
     longest = std::max(longest, duration(animation));
   }
+  if (longest == 0.0f) return false;
   rest(scene);
   World posed(scene);
   const auto is_closed = [&] {

@@ -47,19 +47,21 @@ const uint kStageFurtherMirror = 4u;
 /// It came through surfaces alone. Nothing is stored apart. Where one is rough, it samples lights
 /// behind it.
 const uint kStageThroughGlass = 5u;
-/// It came through glass to the first opaque surface. Nothing is stored apart.
-const uint kStageBehindGlass = 6u;
+/// It left the clearcoat of the first opaque surface behind glass. Nothing is stored apart.
+const uint kStageBeyondClearcoat = 6u;
+/// It came through glass to that surface. Nothing is stored apart.
+const uint kStageBehindGlass = 7u;
 /// It left the coat of that surface, and has hit nothing but glass since. All light is stored
 /// apart.
-const uint kStageCoatBehindGlass = 7u;
+const uint kStageCoatBehindGlass = 8u;
 /// It left the coat of that surface, and has hit something else than glass. All light is stored
 /// apart.
-const uint kStageBeyondCoat = 8u;
+const uint kStageBeyondCoat = 9u;
 /// It left a MirroredCoat. All light is stored in CoatRay::mirrored.
-const uint kStageBeyondMirroredCoat = 9u;
-/// It came through kMaxPathVertices surfaces or more, and nothing else. All light is stored in
+const uint kStageBeyondMirroredCoat = 10u;
+/// It came through more than kMaxPathVertices surfaces, and nothing else. All light is stored in
 /// CoatRay::mirrored.
-const uint kStageLongWay = 10u;
+const uint kStageLongWay = 11u;
 
 // Values of CoatPath::fork: whether a path splits at glass into a refracted and a reflected branch.
 /// It does not split: at each surface one of the two directions is chosen, see glass_choice().

@@ -11,6 +11,12 @@
 
 LAMBENT_BEGIN
 
+/// Most surfaces that a path hits, if this is the last one.
+LAMBENT_FN uint most_vertices(CoatPath path, Transmission through) {
+  bool in_glass = path.stage == kStageThroughGlass || path.stage == kStageLongWay;
+  return in_glass && is_transmissive(through) ? kMaxGlassVertices : kMaxPathVertices;
+}
+
 /// Shares of the light of a coat and a clearcoat that further rays supply where a path hit them.
 ///
 /// What glass shows is seen as if nothing were before it: there rays look for the lamps and the
@@ -20,7 +26,7 @@ LAMBENT_BEGIN
 LAMBENT_FN CoatShares further_coat_shares(Transmission through, Reflectance surface, float n_dot_v,
                                           CoatPath path, uint bounce) {
   CoatShares shares = {0.0f, 0.0f};
-  if (bounce >= (is_transmissive(through) ? kMaxGlassVertices : kMaxPathVertices)) return shares;
+  if (bounce >= most_vertices(path, through)) return shares;
   if (path.stage == kStageThroughGlass || is_transmissive(through)) {
     shares.coat = traced_coat_share(surface);
     if (!is_transmissive(through) && has_clearcoat(surface.layers)) {
@@ -85,12 +91,9 @@ const uint kFirstBounceOfForks = 2u;
 const float kAlwaysReflected = -1.0f, kNeverReflected = 1.0f;
 
 /// Brings the stage of a path that has met many surfaces up to date, before the light of its hit on
-/// bounce `bounce` is added. Lights are sampled no longer.
+/// bounce `bounce` is added. Its surfaces sample no lights from there on.
 LAMBENT_FN void note_long_way(uint bounce, LAMBENT_INOUT(CoatPath) path) {
-  if (path.stage != kStageThroughGlass || bounce <= kMaxPathVertices) return;
-  path.stage = kStageLongWay;
-  path.pdf = kNoLightSampling;
-  path.density_scale = 0.0f;
+  if (path.stage == kStageThroughGlass && bounce > kMaxPathVertices) path.stage = kStageLongWay;
 }
 
 /// Adds light at a path's hit, without its emission, to the light of its pixel's ray.
@@ -265,8 +268,10 @@ LAMBENT_FN NextRay extend_by_reflection(Reflectance coat, CoatShares shares, vec
     path.stage = kStageBeyondMirroredCoat;
   } else if (in_mirror && coat.alpha <= kSharpMirrorAlpha && !has_base) {
     path.stage = kStageFurtherMirror;
-  } else if (path.stage <= kStageBehindGlass) {
-    path.stage = filtered ? kStageCoatBehindGlass : kStageOther;
+  } else if (path.stage == kStageBehindGlass || path.stage == kStageBeyondClearcoat) {
+    path.stage = filtered ? kStageCoatBehindGlass : kStageBeyondClearcoat;
+  } else if (path.stage < kStageBehindGlass) {
+    path.stage = kStageOther;
   }
   next.direction_ws = drawn.direction_ws;
   return next;
@@ -288,6 +293,9 @@ LAMBENT_FN NextRay extend_through_glass(Transmission through, Reflectance coat, 
   if (path.stage == kStageThroughGlass && !goes_straight(through)) {
     path.pdf = drawn.pdf > 0.0f ? drawn.pdf : kNoLightSampling;
     path.density_scale = drawn.pdf > 0.0f ? density_scale : 0.0f;
+  } else if (path.stage == kStageLongWay) {
+    path.pdf = kNoLightSampling;
+    path.density_scale = 0.0f;
   }
   if (drawn.weight == vec3(0.0f)) path.pdf = 0.0f;
   NextRay next = {drawn.direction_ws, drawn.crosses != 0u ? -1.0f : 1.0f};
@@ -296,20 +304,23 @@ LAMBENT_FN NextRay extend_through_glass(Transmission through, Reflectance coat, 
 
 /// Probability with which a path goes on through the surface that it hit on bounce `bounce`. From
 /// the inside of a volume it is 1: extend_through_glass() decides on inner reflection.
-LAMBENT_FN float crossing_chance(Transmission through, Reflectance coat, float coat_share,
-                                 float n_dot_v, uint bounce) {
-  if (bounce >= kMaxGlassVertices || !is_transmissive(through)) return 0.0f;
+LAMBENT_FN float crossing_chance(CoatPath path, Transmission through, Reflectance coat,
+                                 float coat_share, float n_dot_v, uint bounce) {
+  if (bounce >= most_vertices(path, through) || !is_transmissive(through)) return 0.0f;
   return crossing_probability(passing_share(through, coat, n_dot_v),
                               coat_share * specular_albedo(coat, n_dot_v));
 }
 
-/// Whether a path splits into a transmitted and a reflected branch at the surface that it hit.
+/// Whether a path splits into a transmitted and a reflected branch at the surface that it hit, as
+/// long as it has met few: bounces of a branch count from kFirstBounceOfForks again.
 /// Where samples are stratified, it does so at the next glass that it enters: they show what the
 /// far side of the glass before it reflects well enough.
 LAMBENT_FN bool forks(CoatPath path, Transmission through, Reflectance coat, float coat_share,
                       float n_dot_v, uint path_step) {
   if (path.fork != kForksNext || through.alpha > kStraightAlpha) return false;
-  float crossing = crossing_chance(through, coat, coat_share, n_dot_v, bounce_of_step(path_step));
+  if (path.stage == kStageLongWay) return false;
+  float crossing =
+      crossing_chance(path, through, coat, coat_share, n_dot_v, bounce_of_step(path_step));
   if (through.kind == kLeavesVolume) {
     if (is_stratified(path_step)) return false;
     crossing *= 1.0f - inner_reflection(n_dot_v, through.eta);
@@ -336,7 +347,7 @@ LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, CoatShares shar
   }
   bool clear = path.stage == kStageThroughGlass && through.alpha <= kStraightAlpha;
   float least = clear ? choice.least_chance : 0.0f;
-  float crossing = crossing_chance(through, coat, shares.coat, n_dot_v, bounce);
+  float crossing = crossing_chance(path, through, coat, shares.coat, n_dot_v, bounce);
   if (crossing > 0.0f && least > 0.0f && through.kind == kLeavesVolume) {
     float crosses = 1.0f - inner_reflection(n_dot_v, through.eta);
     float chance = moderate_chance(crosses, least);

@@ -14,10 +14,10 @@ const uint kSurfaceMissed = 1u;  ///< The ray left the scene.
 const uint kSurfaceDiscounted = 2u;
 /// Lights behind the surface are sampled, see samples_lights_behind().
 const uint kSurfaceSamplesBehind = 4u;
-/// Indirect light of the surface's base is not looked up: rays gather it.
-const uint kSurfaceGathers = 16u;
 /// The pixel has no sample, see SampleRound: no ray was traced, and it shows nothing.
 const uint kSurfaceSkipped = 8u;
+/// Rays gather the indirect light of the surface's base, in place of the lookup.
+const uint kSurfaceGathers = 16u;
 
 // Rays that gather a hemisphere's light have cones this wide per metre over the square root of
 // their number: together they cover the hemisphere.

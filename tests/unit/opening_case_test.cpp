@@ -95,6 +95,8 @@ TEST(FirstView, OfASequenceFailsWhereAPoseDoes) {
   const World world(scene);
   const auto refuse = [](int) -> Expected<void> { return fail("pose", "", "cannot be taken"); };
   EXPECT_FALSE(first_view(world, {}, {3, refuse}));
+  EXPECT_FALSE(first_view(world, {}, {0, refuse})) << "no pose";
+  EXPECT_FALSE(first_view(world, {}, {2, {}})) << "no way to take them";
 }
 
 }  // namespace

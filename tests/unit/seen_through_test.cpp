@@ -6,6 +6,7 @@
 #include "lambent/renderer.h"
 #include "support/field_scenes.h"
 #include "support/floor_behind_a_pane.h"
+#include "support/hand_made.h"
 
 namespace lambent::seen_through_test {
 namespace {
@@ -15,8 +16,9 @@ constexpr float kClear = 0.0f, kFrosted = 0.4f;  // roughness
 /// A floor behind a pane, lit by a field, and what the pane shows.
 struct Pane {
   Pane(const Material& floor, float roughness, bool slab = false)
-      : stage(test::floor_behind_a_pane(floor, roughness, slab)),
-        field(test::make_field(stage, few_probes(), 2)) {}
+      : Pane(test::floor_behind_a_pane(floor, roughness, slab)) {}
+  explicit Pane(Scene scene)
+      : stage(std::move(scene)), field(test::make_field(stage, few_probes(), 2)) {}
   static FieldSettings few_probes() {
     FieldSettings settings;
     settings.probe_count = glm::ivec3(4);
@@ -80,6 +82,18 @@ TEST(SeenThrough, ClearGlassShowsMatteFloorsWithLessNoise) {
 
 TEST(SeenThrough, ClearGlassShowsCoatsWithLessNoise) {
   expect_less_noise(Pane(test::metal_floor(), kClear), 0.6);
+}
+
+// What the lacquer shows of the ceiling is not taken for the first surface behind the glass.
+TEST(SeenThrough, ClearGlassShowsLacquerUnderACeilingWithAllOfItsLight) {
+  Scene scene = test::floor_behind_a_pane(test::lacquered_floor(), kClear);
+  test::add(scene, test::quad({-9, 2.5f, -9}, {18, 0, 0}, {0, 0, 18}, 0));
+  const Pane pane(std::move(scene));
+  FrameSettings settings = Pane::settings(false);
+  settings.width = settings.height = 32;
+  const LayeredImage truth = mean_picture(pane, settings, 64);
+  settings.denoise = true;
+  EXPECT_NEAR(difference(mean_picture(pane, settings, 32), truth).mean_ratio, 1.0, 0.02);
 }
 
 TEST(SeenThrough, FrostedGlassShowsLessNoise) {

@@ -33,7 +33,10 @@ FurtherSamples::FurtherSamples(const FrameRequest& request, FramePasses& passes)
   const auto height = static_cast<std::size_t>(settings_.height);
   skipped_.assign(width * height, 0);
   noise_.emplace(width, height);
-  settings_.gather_rays = fewer(settings_.gather_rays, kFewerGathers);
+  // What mirrors and glass show gathers in all rounds, or in none
+  const int gathers = fewer(settings_.gather_rays, kFewerGathers);
+  const bool shown = shown_gather_rays(settings_) > 0;
+  settings_.gather_rays = shown ? std::max(gathers, kGathersOverShown) : gathers;
   settings_.coat_rays = fewer(settings_.coat_rays, kFewerReflections);
   settings_.reflected_emissive_samples =
       fewer(settings_.reflected_emissive_samples, kFewerReflections);

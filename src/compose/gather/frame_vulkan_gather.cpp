@@ -220,7 +220,7 @@ void FramePassesVulkan::gather_shown(ShownBaseArray bases, const Buffer& looked_
   FrameMemory& m = memory_;
   reserve<LitPointRecord>(pixels_, "points that are shown", m.shown_points);
   reserve<PixelSurfaceRecord>(pixels_, "surfaces that are shown", m.shown_surfaces);
-  reserve<QueryRecord>(pixels_, "queries", m.queries);
+  reserve<QueryRecord>(pixels_, "queries of points that are shown", m.shown_queries);
   reserve<uint>(1, "number of points that are shown", m.shown_points_found);
   add("gather", [=, this, &m](Recorder& to) {
     to.fill(m.shown_points_found, 0u);
@@ -229,7 +229,7 @@ void FramePassesVulkan::gather_shown(ShownBaseArray bases, const Buffer& looked_
                                         bases,
                                         {m.shown_points.address()},
                                         {m.shown_surfaces.address()},
-                                        {m.queries.address()},
+                                        {m.shown_queries.address()},
                                         {m.shown_points_found.address()},
                                         pixels_,
                                         0u};
@@ -239,7 +239,7 @@ void FramePassesVulkan::gather_shown(ShownBaseArray bases, const Buffer& looked_
   uint points = 0;
   vulkan::read(device_, m.shown_points_found, std::span(&points, 1));
   if (points == 0) return;
-  look_up("gather", *request_->sources.field, m.queries, pixels_, pixel_correction(*request_),
+  look_up("gather", *request_->sources.field, m.shown_queries, pixels_, pixel_correction(*request_),
           looked_up);
   const auto rays = static_cast<std::uint32_t>(shown_gather_rays(request_->settings));
   frame_->rays += std::uint64_t{points} * rays;

@@ -123,9 +123,12 @@ void FramePassesVulkan::denoise_mirrored_bases(Recorder& to, DenoiseViewOnDevice
   view.positions_ws = r.mirrored_base_positions_ws;
   view.normals_ws = r.mirrored_base_normals_ws;
   view.depths = r.mirrored_base_depths;
-  const FloatArray variance = reflected_draws() > 1 ? r.mirrored_emitter_variance : FloatArray{};
-  memory_.denoiser.record(to, view, {r.mirrored_emitters, {}, variance, r.mirrored_emitter_levels},
-                          emitter_denoising(), r.filtered_mirrored_emitters);
+  if (reflected_draws() > 0) {
+    const FloatArray variance = reflected_draws() > 1 ? r.mirrored_emitter_variance : FloatArray{};
+    memory_.denoiser.record(to, view,
+                            {r.mirrored_emitters, {}, variance, r.mirrored_emitter_levels},
+                            emitter_denoising(), r.filtered_mirrored_emitters);
+  }
   if ((kept & kGathersInMirrors) == 0u) return;
   view.normals_ws = r.mirrored_geometric_normals_ws;
   const bool several = shown_gather_rays(request_->settings) > 1;

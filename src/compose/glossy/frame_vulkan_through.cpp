@@ -147,6 +147,7 @@ void FramePassesVulkan::begin_through(std::size_t pixels) {
   r.filtered_gathered.address = room_to_gather(sizeof(vec3), t.filtered_gathered);
   const bool long_ways = filters_long_ways(*request_);
   r.long_ways.address = long_ways ? room(sizeof(vec3), t.long_ways) : 0;
+  r.glass_depths.address = long_ways ? room(sizeof(float), t.glass_depths) : 0;
   r.filtered_long_ways.address = long_ways ? room(sizeof(vec3), t.filtered_long_ways) : 0;
   const int width = request_->settings.width;
   const auto of_a_band =
@@ -212,6 +213,7 @@ void FramePassesVulkan::keep_through() {
                                             {m.coat_distances.address()},
                                             {m.pixel_fog.address()},
                                             {m.looked_up_behind.address()},
+                                            {m.filtered.record.depths.address},
                                             {m.through.addresses.address()},
                                             first_traced_pixel(),
                                             pixels_,
@@ -253,7 +255,10 @@ void FramePassesVulkan::denoise_through(const DenoiseViewOnDevice& view, const S
                        r.excess, r.filtered_gathered);
     }
     if (long_ways) {
-      memory_.denoiser.record(to, view, {r.long_ways}, long_way_denoising(), r.filtered_long_ways);
+      DenoiseViewOnDevice of_glass = view;
+      of_glass.depths = r.glass_depths;
+      memory_.denoiser.record(to, of_glass, {r.long_ways}, long_way_denoising(),
+                              r.filtered_long_ways);
     }
     behind.lobes = r.coat_lobes;
     memory_.denoiser.record(to, behind, {r.coats}, geometric_denoising(), r.filtered_coats);

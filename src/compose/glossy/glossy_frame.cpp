@@ -140,14 +140,13 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
   const Scene& scene = settings.world.scene();
   std::atomic<std::uint64_t> traced = 0;
   met_.surfaces.resize(rays_.size());
-  met_.hit.resize(rays_.size());
+  met_.hit.assign(rays_.size(), 0);
   met_.to_viewer_ws.resize(rays_.size());
   met_.coat_shares.assign(rays_.size(), CoatShares{});
   parallel_chunks(rays_.size(), kCostlyPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<Ray> rays;
     std::vector<std::size_t> pixels;
     for (std::size_t i = begin; i < end; ++i) {
-      met_.hit[i] = 0;
       if (paths_.paths[i].pdf <= 0.0f) continue;
       rays.push_back(paths_.next[i]);
       pixels.push_back(i);

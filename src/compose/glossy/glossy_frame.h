@@ -134,7 +134,7 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
                            const GBuffer& pixels, std::span<const glm::vec3> sky,
                            GlossyMemory& memory, CoatLight& light);
 
-/// Whether what coats that mirrors show reflect is filtered, and the light of emitters there; see
+/// Whether what coats that mirrors show reflect is filtered, and light on the bases there; see
 /// MirroredCoat and ShownBase.
 bool filters_mirrored_light(const FrameRequest& request);
 

@@ -38,8 +38,8 @@ struct CoatLight {
   /// The coats that mirrors show. `light` does not include theirs. Empty where that is not kept
   /// separately.
   std::vector<MirroredCoat> mirrored;
-  /// The light of emitters on the surfaces that mirrors show, without which `light` is. Empty where
-  /// `mirrored` is.
+  /// The surfaces that mirrors show. `light` does not include that of emitters there, nor what they
+  /// gather. Empty where `mirrored` is.
   std::vector<ShownBase> mirrored_bases;
   std::vector<OwnRayLight> own;  ///< Empty where pixels have one ray.
 

@@ -50,17 +50,26 @@ void find_inverse_distances(const DenoiseView& view, std::span<const float> alph
 }
 
 /// Filters light of long ways, and adds it to all transmitted light.
-void filter_long_ways(const DenoiseView& view, Denoiser& denoiser, SeenThrough& seen) {
+void filter_long_ways(DenoiseView view, Denoiser& denoiser, SeenThrough& seen) {
   const auto is_some = [](const vec3& light) { return light != vec3(0.0f); };
   if (std::ranges::none_of(seen.long_ways, is_some)) return;
+  // Pixels without glass, or without a sample, neither give nor take any
+  seen.glass_depths.resize(seen.light.size());
+  parallel_chunks(seen.light.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      seen.glass_depths[i] = seen.albedo[i] != vec3(0.0f) ? view.depths[i] : 0.0f;
+    }
+  });
+  view.depths = seen.glass_depths;
   seen.filtered_long_ways.resize(seen.long_ways.size());
   [[maybe_unused]] const Expected<void> done = denoiser.filter(
       view, {seen.long_ways, {}, {}}, long_way_denoising(), seen.filtered_long_ways);
   assert(done);  // sizes are the view's
-  for (std::size_t i = 0; i < seen.light.size(); ++i) {
-    // Pixels without glass, or without a sample, show none
-    if (seen.albedo[i] != vec3(0.0f)) seen.light[i] += seen.filtered_long_ways[i];
-  }
+  parallel_chunks(seen.light.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (seen.glass_depths[i] > 0.0f) seen.light[i] += seen.filtered_long_ways[i];
+    }
+  });
 }
 
 /// Filters the light of the first opaque surfaces behind glass, and adds it to all transmitted

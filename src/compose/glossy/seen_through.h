@@ -31,7 +31,10 @@ struct TransmittedLight {
   std::vector<ShownBase> bases;
 
   bool empty() const { return light.empty(); }
-  void clear() { light.clear(); }
+  void clear() {
+    light.clear();
+    bases.clear();
+  }
 };
 
 /// One sample of the pixels of the traced rows. Its memory is reused.
@@ -54,6 +57,7 @@ struct SeenThrough {
   /// Light of long ways, divided likewise: single bright rays, which are spread over the glass.
   /// Empty: it is part of `light`.
   std::vector<glm::vec3> long_ways;
+  std::vector<float> glass_depths;  ///< Of the pixel's own surface [m]; 0 where it is not glass.
   // The lobes over which rough surfaces blur it, as lobes of coats that face away from the camera
   std::vector<glm::vec3> away_normals_ws, to_viewer_ws;
   std::vector<float> alphas;     ///< 0: the transmitted image is sharp.

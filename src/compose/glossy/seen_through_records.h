@@ -24,6 +24,7 @@ struct SeenThroughRecord {
   Vec3Array light;
   Vec3Array albedo;
   Vec3Array long_ways;  ///< Written where long_ways is 1, as below; see SeenThrough.
+  FloatArray glass_depths;
   LobeGuideArray lobes;
   FloatArray distances;
   // Written where the surfaces gather light; see ShownGatherPixels
@@ -83,6 +84,7 @@ struct KeepThroughArguments {
   FloatArray coat_distances;
   Vec4Array fog;        ///< See fog_along(); read where has_fog is 1.
   Vec3Array looked_up;  ///< Irradiance by lookups; read where gathers is 1.
+  FloatArray depths;    ///< Of the pixels' surfaces [m], one for each of the traced ones.
   SeenThroughArray seen;
   uint first;
   uint count;

@@ -121,7 +121,7 @@ std::uint64_t Glossy::look_through(const GlossySettings& settings, const GlossyR
   std::swap(paths_, forks_);
   forks_.start(0);
   traced += follow_all(settings, static_cast<std::uint64_t>(going), kFirstBounceOfForks, kept);
-  light.bases = bases_behind_;
+  light.bases.swap(bases_behind_);
   light.light.resize(rays_.size());
   light.long_ways.resize(rays_.size());
   light.distances.resize(rays_.size());

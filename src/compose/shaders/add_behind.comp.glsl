@@ -16,11 +16,10 @@ void main() {
   if (args.draws > 0u) {
     light += args.seen.at[0].emitter_albedo.at[i] * args.seen.at[0].filtered_emitters.at[i];
   }
-  if (args.gathers != 0u) {
+  if (args.gathers != 0u && args.seen.at[0].depths.at[i] > 0.0f) {
     light += args.seen.at[0].indirect_albedo.at[i] * args.seen.at[0].filtered_gathered.at[i];
   }
-  // Pixels without glass, or without a sample, show no light of long ways
-  if (args.long_ways != 0u && args.seen.at[0].albedo.at[i] != vec3(0.0f)) {
+  if (args.long_ways != 0u && args.seen.at[0].glass_depths.at[i] > 0.0f) {
     light += args.seen.at[0].filtered_long_ways.at[i];
   }
   args.seen.at[0].light.at[i] += light;

@@ -37,6 +37,7 @@ void main() {
   args.seen.at[0].light.at[pixel] = ray.radiance / tint;
   if (args.long_ways != 0u) {
     args.seen.at[0].long_ways.at[pixel] = ray.mirrored / tint;
+    args.seen.at[0].glass_depths.at[pixel] = args.depths.at[pixel];
   } else {
     args.seen.at[0].light.at[pixel] += ray.mirrored / tint;
   }

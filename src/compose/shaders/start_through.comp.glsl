@@ -20,6 +20,7 @@ void main() {
     args.seen.at[0].bases.at[i] = no_shown_base();
     args.seen.at[0].indirect_albedo.at[pixel] = vec3(0.0f);
   }
+  if (args.long_ways != 0u) args.seen.at[0].glass_depths.at[pixel] = 0.0f;
   if ((args.surfaces.at[i].flags & kSurfaceSkipped) != 0u) return;
   args.seen.at[0].depths.at[pixel] = 0.0f;
   args.seen.at[0].emitters.at[pixel] = vec3(0.0f);
@@ -31,5 +32,11 @@ void main() {
   args.seen.at[0].distances.at[pixel] = -1.0f;
   args.seen.at[0].light.at[pixel] = vec3(0.0f);
   if (args.long_ways != 0u) args.seen.at[0].long_ways.at[pixel] = vec3(0.0f);
+  if (args.gathers != 0u) {
+    args.seen.at[0].gathered.at[pixel] = vec3(0.0f);
+    args.seen.at[0].gathered_variance.at[pixel] = 0.0f;
+    args.seen.at[0].excess.at[pixel] = vec3(0.0f);
+    args.seen.at[0].looked_up.at[pixel] = vec3(0.0f);
+  }
   args.seen.at[0].lobes.at[pixel].sharpness = 0.0f;
 }
