@@ -11,12 +11,6 @@
 
 LAMBENT_BEGIN
 
-/// Most surfaces that a path hits, if this is the last one.
-LAMBENT_FN uint most_vertices(CoatPath path, Transmission through) {
-  bool in_glass = path.stage == kStageThroughGlass || path.stage == kStageLongWay;
-  return in_glass && is_transmissive(through) ? kMaxGlassVertices : kMaxPathVertices;
-}
-
 /// Shares of the light of a coat and a clearcoat that further rays supply where a path hit them.
 ///
 /// What glass shows is seen as if nothing were before it: there rays look for the lamps and the
@@ -26,7 +20,7 @@ LAMBENT_FN uint most_vertices(CoatPath path, Transmission through) {
 LAMBENT_FN CoatShares further_coat_shares(Transmission through, Reflectance surface, float n_dot_v,
                                           CoatPath path, uint bounce) {
   CoatShares shares = {0.0f, 0.0f};
-  if (bounce >= most_vertices(path, through)) return shares;
+  if (bounce >= (is_transmissive(through) ? kMaxGlassVertices : kMaxPathVertices)) return shares;
   if (path.stage == kStageThroughGlass || is_transmissive(through)) {
     shares.coat = traced_coat_share(surface);
     if (!is_transmissive(through) && has_clearcoat(surface.layers)) {
@@ -304,9 +298,9 @@ LAMBENT_FN NextRay extend_through_glass(Transmission through, Reflectance coat, 
 
 /// Probability with which a path goes on through the surface that it hit on bounce `bounce`. From
 /// the inside of a volume it is 1: extend_through_glass() decides on inner reflection.
-LAMBENT_FN float crossing_chance(CoatPath path, Transmission through, Reflectance coat,
-                                 float coat_share, float n_dot_v, uint bounce) {
-  if (bounce >= most_vertices(path, through) || !is_transmissive(through)) return 0.0f;
+LAMBENT_FN float crossing_chance(Transmission through, Reflectance coat, float coat_share,
+                                 float n_dot_v, uint bounce) {
+  if (bounce >= kMaxGlassVertices || !is_transmissive(through)) return 0.0f;
   return crossing_probability(passing_share(through, coat, n_dot_v),
                               coat_share * specular_albedo(coat, n_dot_v));
 }
@@ -320,7 +314,7 @@ LAMBENT_FN bool forks(CoatPath path, Transmission through, Reflectance coat, flo
   if (path.fork != kForksNext || through.alpha > kStraightAlpha) return false;
   if (path.stage == kStageLongWay) return false;
   float crossing =
-      crossing_chance(path, through, coat, coat_share, n_dot_v, bounce_of_step(path_step));
+      crossing_chance(through, coat, coat_share, n_dot_v, bounce_of_step(path_step));
   if (through.kind == kLeavesVolume) {
     if (is_stratified(path_step)) return false;
     crossing *= 1.0f - inner_reflection(n_dot_v, through.eta);
@@ -347,7 +341,7 @@ LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, CoatShares shar
   }
   bool clear = path.stage == kStageThroughGlass && through.alpha <= kStraightAlpha;
   float least = clear ? choice.least_chance : 0.0f;
-  float crossing = crossing_chance(path, through, coat, shares.coat, n_dot_v, bounce);
+  float crossing = crossing_chance(through, coat, shares.coat, n_dot_v, bounce);
   if (crossing > 0.0f && least > 0.0f && through.kind == kLeavesVolume) {
     float crosses = 1.0f - inner_reflection(n_dot_v, through.eta);
     float chance = moderate_chance(crosses, least);
