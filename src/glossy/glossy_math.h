@@ -35,7 +35,7 @@ const uint kMaxPathVertices = 12u;
 
 /// Most surfaces that a path hits. Beyond kMaxPathVertices it goes on in glass alone: light that is
 /// reflected within a bottle's rim or a cut stone leaves it after many of them, and no other light
-/// stands for it. With twice as many, a block of diamond takes 0.2 % of a picture in place of 0.3 %.
+/// stands for it. With twice as many, a block of diamond takes 0.2 % of a picture, not 0.3 %.
 const uint kMaxGlassVertices = 48u;
 
 /// A path goes on from a coat only where the largest channel of its throughput would stay at least
