@@ -313,8 +313,7 @@ LAMBENT_FN bool forks(CoatPath path, Transmission through, Reflectance coat, flo
                       float n_dot_v, uint path_step) {
   if (path.fork != kForksNext || through.alpha > kStraightAlpha) return false;
   if (path.stage == kStageLongWay) return false;
-  float crossing =
-      crossing_chance(through, coat, coat_share, n_dot_v, bounce_of_step(path_step));
+  float crossing = crossing_chance(through, coat, coat_share, n_dot_v, bounce_of_step(path_step));
   if (through.kind == kLeavesVolume) {
     if (is_stratified(path_step)) return false;
     crossing *= 1.0f - inner_reflection(n_dot_v, through.eta);
