@@ -45,14 +45,14 @@ struct FrameSettings {
   /// Samples of emissive triangles and of many lights for direct light, >= 1; a shadow ray each.
   int emissive_samples = 4;
   /// The same number at each surface hit by a reflected ray or by one through glass, >= 1. No
-  /// filter removes the noise of direct light in mirrors and clearcoats.
+  /// filter removes the noise of direct light in mirrors of roughness above 0.05 and in clearcoats.
   int reflected_emissive_samples = 4;
   /// Rays per sample that gather its indirect light (final gathering), >= 0; 0: the field is looked
   /// up instead. Gathering resolves light and shade finer than the probes' spacing, but is noisy,
   /// and costs a ray and its shadow rays for each. Where it ends within a spacing of the probes
-  /// from its origin or from a light, up to four more follow. With `denoise`, a quarter of them
-  /// gathers the light of what a pixel shows in a mirror, of roughness up to 0.05, and as many that
-  /// of what it shows behind glass; below 4, that light is looked up.
+  /// from its origin or from a light, up to four more follow. With `denoise`, half of them
+  /// gather the light of what a pixel shows in a mirror, of roughness up to 0.05, and as many that
+  /// of what it shows behind glass; with 1, that light is looked up.
   int gather_rays = 0;
   /// Whether up to half of a sample's gathering rays, where there are several, go where a pilot
   /// found most of the light: a picture an eighth as large, 64 to 256 pixels along its longer side

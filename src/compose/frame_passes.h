@@ -54,8 +54,9 @@ inline bool gathers(const FrameRequest& request) {
 }
 
 // Rays that gather the light of a pixel, over those for what it shows in a mirror or behind glass.
-// Both weaken what they show, and 16 rays, of 4 samples, do once they are filtered.
-constexpr int kGathersOverShown = 4;
+// Both weaken what they show. A quarter of the rays left clouds on walls behind panes, which few of
+// the further samples of a pixel reached (FurtherSamples.ComeCloserToMany...).
+constexpr int kGathersOverShown = 2;
 
 /// Rays that gather the light of what a pixel shows in its mirror, and of that behind its glass, a
 /// sample.
