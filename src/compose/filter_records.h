@@ -4,6 +4,7 @@
 #define LAMBENT_COMPOSE_FILTER_RECORDS_H
 
 #include "compose/frame_records.h"
+#include "compose/gather/shown_gather_records.h"
 #include "denoise/denoise_records.h"
 
 LAMBENT_BEGIN
@@ -41,19 +42,14 @@ struct FilteredPixelsRecord {
   Vec3Array mirrored_normals_ws;
   FloatArray mirrored_depths;
   LobeGuideArray mirrored_lobes;
-  Vec3Array mirrored_emitters;  ///< See MirroredBasePixels, as of the next twelve.
+  Vec3Array mirrored_emitters;  ///< See MirroredBasePixels, as of the next seven.
   FloatArray mirrored_emitter_variance;
   FloatArray mirrored_emitter_levels;
   Vec3Array mirrored_emitter_albedo;
   Vec3Array mirrored_base_positions_ws;
   Vec3Array mirrored_base_normals_ws;
   FloatArray mirrored_base_depths;
-  Vec3Array mirrored_geometric_normals_ws;
-  Vec3Array mirrored_gathered;
-  FloatArray mirrored_gathered_variance;
-  Vec3Array mirrored_excess;
-  Vec3Array mirrored_looked_up;
-  Vec3Array mirrored_indirect_albedo;
+  ShownGatherRecord mirrored_gather;
   Vec3Array highlights;
   Vec3Array highlight_albedo;
   LobeGuideArray highlight_lobes;
@@ -63,7 +59,6 @@ struct FilteredPixelsRecord {
   Vec3Array filtered_clearcoats;
   Vec3Array filtered_mirrored;
   Vec3Array filtered_mirrored_emitters;
-  Vec3Array filtered_mirrored_gathered;
   Vec3Array filtered_highlights;
 };
 LAMBENT_DEVICE_ARRAY(FilteredPixelsArray, FilteredPixelsRecord, 8)

@@ -64,6 +64,12 @@ inline int shown_gather_rays(const FrameSettings& settings) {
   return settings.gather_rays / kGathersOverShown;
 }
 
+/// Whether the surfaces that pixels show in mirrors or behind glass gather light, where theirs is
+/// filtered.
+inline bool gathers_shown(const FrameRequest& request) {
+  return gathers(request) && shown_gather_rays(request.settings) > 0;
+}
+
 /// Whether a pilot guides these rays.
 inline bool guides_gathers(const FrameRequest& request) {
   return gathers(request) && request.settings.guides_gathers && request.settings.gather_rays > 1;

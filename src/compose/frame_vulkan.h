@@ -211,8 +211,10 @@ class FramePassesVulkan final : public FramePasses {
   void sum_gathers(const GatheredPixels& pixels);
   /// Gathers the light of the band's surfaces.
   void gather_light(const GatheringSurfaces& surfaces);
-  void gather_shown(ShownBaseArray bases, const Buffer& looked_up, Vec3Array irradiance,
-                    FloatArray variance, Vec3Array excess);
+  /// Makes room for what the shown surfaces of so many pixels gather.
+  ShownGatherRecord room_to_gather(std::size_t pixels, ShownGatherBuffers& buffers) const;
+  void gather_shown(ShownBaseArray bases, ShownGatherBuffers& buffers,
+                    const ShownGatherRecord& kept);
   /// Lights the coats of the rows around the band, which see_around_band() has filled in, by rays;
   /// see Glossy::reflect. `sky`: see reflect_band(). Returns whether there are any rays.
   bool trace_coats(const Band& around, CoatKind kind, const Buffer& sky);
@@ -254,6 +256,7 @@ class FramePassesVulkan final : public FramePasses {
   void denoise_coats(const DenoiseViewOnDevice& view);
   void denoise_gathered(Recorder& to, const DenoiseViewOnDevice& view,
                         const NoisyLightOnDevice& light, Vec3Array excess, Vec3Array filtered);
+  void denoise_shown(Recorder& to, DenoiseViewOnDevice view, const ShownGatherRecord& kept);
   void denoise_mirrored_bases(Recorder& to, DenoiseViewOnDevice view);
   void denoise_through(const DenoiseViewOnDevice& view, const ShownPixels& shown, float share);
   void upload_before();

@@ -18,6 +18,13 @@
 
 namespace lambent {
 
+/// Memory of a ShownGatherRecord: 76 bytes for each pixel of the traced rows; and the irradiance by
+/// lookups at a band's pixels.
+struct ShownGatherBuffers {
+  vulkan::Buffer geometric_normals_ws, gathered, variance, excess, looked_up, albedo, filtered;
+  vulkan::Buffer band_lookups;
+};
+
 /// Light that is filtered, of the traced rows: 400 bytes a pixel, 168 more where mirrors may show
 /// coats and light of emitters, and 76 more where what they show gathers light. See
 /// FilteredPixelsRecord.
@@ -38,9 +45,7 @@ struct FilteredBuffers {
   vulkan::Buffer mirrored_emitters, mirrored_emitter_variance, mirrored_emitter_levels;
   vulkan::Buffer mirrored_emitter_albedo, mirrored_base_positions_ws;
   vulkan::Buffer mirrored_base_normals_ws, mirrored_base_depths, filtered_mirrored_emitters;
-  vulkan::Buffer mirrored_geometric_normals_ws, mirrored_gathered, mirrored_gathered_variance;
-  vulkan::Buffer mirrored_excess, mirrored_looked_up, mirrored_indirect_albedo;
-  vulkan::Buffer filtered_mirrored_gathered;
+  ShownGatherBuffers mirrored_gather;
 };
 
 /// Light seen through surfaces, which is filtered, of the traced rows: 216 bytes a pixel, and 76
@@ -53,9 +58,9 @@ struct SeenThroughBuffers {
   vulkan::Buffer coats, coat_albedo, coat_lobes, coat_distances;
   vulkan::Buffer light, albedo, lobes, distances;
   vulkan::Buffer filtered_emitters, filtered_coats, filtered;
-  vulkan::Buffer geometric_normals_ws, gathered, gathered_variance, excess, looked_up;
-  vulkan::Buffer indirect_albedo, filtered_gathered, long_ways, glass_depths;
-  vulkan::Buffer filtered_long_ways;
+  vulkan::Buffer long_ways, glass_depths, filtered_long_ways;
+  vulkan::Buffer bases;  ///< Those of a band.
+  ShownGatherBuffers gather;
 };
 
 /// Rays that gather light, their hits, and the field's irradiance there.
@@ -120,7 +125,6 @@ struct FrameMemory {
   vulkan::Buffer mirrored_bases;
   // What the band's pixels show in mirrors or behind glass, and how many points gather light
   vulkan::Buffer shown_points, shown_surfaces, shown_queries, shown_points_found;
-  vulkan::Buffer looked_up_in_mirrors, looked_up_behind, bases_behind;
   PathBuffers path_lists[2];
   PathBuffers forks;  // reflected branches, traced later
   vulkan::Buffer path_hits, path_points, path_surfaces, path_diffuse, path_specular;

@@ -91,8 +91,6 @@ constexpr float kMinPlinthShare = 0.25f, kMaxStatue = 4.0f;
 constexpr float kFlatShare = 0.1f;
 constexpr float kTerrainShare = 0.4f, kMinTerrain = 20.0f;
 constexpr float kMinTileCover = 0.3f, kMinSheetShare = 0.9f;
-// Rays go on this share of their distance beyond a hit.
-constexpr float kBelowTerrain = 1e-4f;
 
 // Directions in which the sun's light may travel, the customary one first: from above one shoulder
 // of an observer who looks along -Z.
@@ -114,12 +112,9 @@ bool has_lights_or_sky(const Scene& scene) {
 }
 
 /// Whether nearly all rays that meet a surface meet its front, and no other behind it.
-bool meet_a_sheet(const World& world, std::vector<Ray> rays, std::span<const Hit> first) {
+bool meet_a_sheet(const World& world, const std::vector<Ray>& rays, std::span<const Hit> first) {
+  const std::vector<Hit> second = trace_behind(world, rays, first);
   float met = 0.0f, sheet = 0.0f;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    rays[i].t_min = first[i].missed() ? 0.0f : first[i].distance * (1.0f + kBelowTerrain);
-  }
-  const std::vector<Hit> second = trace(world, rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (first[i].missed()) continue;
     met += 1.0f;

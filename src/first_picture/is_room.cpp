@@ -24,8 +24,6 @@ constexpr float kMaxRooflessElevation = 0.35f;
 // level rays from outside meets a front and then a back within the second share of the diagonal. Of
 // a scan from within, walls are sheets, with their fronts on either side.
 constexpr float kMaxSolid = 0.5f, kMaxWallThickness = 0.15f;
-// Rays go on this share of their distance beyond a hit.
-constexpr float kPastWall = 1e-4f;
 // Number of these rays.
 constexpr int kLevelRays = 256;
 // Least share of a room's box that is enclosed; and the same where surfaces are two-sided, as these
@@ -66,12 +64,7 @@ bool has_walls_of_sheets(const World& world, const Subject& subject,
     rays.push_back({eye, 0.0f, way});
   }
   const std::vector<Hit> outer = trace(world, rays);
-  for (std::size_t r = 0; r < rays.size(); ++r) {
-    if (outer[r].missed()) continue;
-    rays[r].t_min = outer[r].distance * (1.0f + kPastWall);
-    rays[r].t_max = outer[r].distance + kMaxWallThickness * size;
-  }
-  const std::vector<Hit> inner = trace(world, rays);
+  const std::vector<Hit> inner = trace_behind(world, rays, outer, kMaxWallThickness * size);
   float met = 0.0f, solid = 0.0f;
   for (std::size_t r = 0; r < rays.size(); ++r) {
     if (outer[r].missed() || !is_part[outer[r].instance]) continue;

@@ -18,29 +18,9 @@
 
 namespace lambent::test {
 
-// The bar for pictures. Both sides draw the same random numbers; where a ray grazes an edge
-// or a random decision is as close as rounding, single pixels differ.
-inline constexpr double kTolerance = 0.01,
-                        kGrazing = 0.02;  // the latter for rays that graze surfaces
-
-inline constexpr int kWidth = 48, kHeight = 32;
-
 struct Frames {
   LayeredImage cpu, device;
 };
-
-/// Root mean square of the difference of a layer over its root mean square on the processor.
-inline double relative_rmse(const Frames& frames, const std::string& name) {
-  const Image& a = *frames.cpu.find(name);
-  const Image& b = *frames.device.find(name);
-  double difference = 0.0, whole = 0.0;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    const double d = static_cast<double>(a.pixels[i]) - b.pixels[i];
-    difference += d * d;
-    whole += static_cast<double>(a.pixels[i]) * a.pixels[i];
-  }
-  return whole > 0.0 ? std::sqrt(difference / whole) : std::sqrt(difference);
-}
 
 struct Job {
   const char* scene;
@@ -81,6 +61,29 @@ inline LayeredImage render(const Scene& scene, const World& world, const Job& jo
 /// Renders frames on both sides.
 class FrameTwin : public OnDevice {
  protected:
+  using Frames = test::Frames;
+  using Job = test::Job;
+
+  // The bar for pictures. Both sides draw the same random numbers; where a ray grazes an edge
+  // or a random decision is as close as rounding, single pixels differ.
+  static constexpr double kTolerance = 0.01,
+                          kGrazing = 0.02;  // the latter for rays that graze surfaces
+
+  static constexpr int kWidth = 48, kHeight = 32;
+
+  /// Root mean square of the difference of a layer over its root mean square on the processor.
+  static double relative_rmse(const Frames& frames, const std::string& name) {
+    const Image& a = *frames.cpu.find(name);
+    const Image& b = *frames.device.find(name);
+    double difference = 0.0, whole = 0.0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+      const double d = static_cast<double>(a.pixels[i]) - b.pixels[i];
+      difference += d * d;
+      whole += static_cast<double>(a.pixels[i]) * a.pixels[i];
+    }
+    return whole > 0.0 ? std::sqrt(difference / whole) : std::sqrt(difference);
+  }
+
   static Frames render_both(const Job& job) {
     Scene scene = *scenes::make(job.scene);
     scene.fog = job.fog;

@@ -13,12 +13,6 @@
 namespace lambent::filtered_frame_test {
 namespace {
 
-using test::Frames;
-using test::Job;
-using test::kGrazing;
-using test::kTolerance;
-using test::relative_rmse;
-
 class FilteredFrame : public test::FrameTwin {};
 
 // Coats, with and without a field's gather beside them, lamps' highlights, and what mirrors show.

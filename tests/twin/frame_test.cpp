@@ -18,12 +18,6 @@
 namespace lambent::frame_test {
 namespace {
 
-using test::Frames;
-using test::Job;
-using test::kGrazing;
-using test::kTolerance;
-using test::relative_rmse;
-
 class Frame : public test::FrameTwin {};
 
 TEST_F(Frame, OfCornellIsTheSame) {

@@ -213,15 +213,31 @@ void FramePassesVulkan::gather() {
   gather_light(pixels);
 }
 
+ShownGatherRecord FramePassesVulkan::room_to_gather(std::size_t pixels,
+                                                    ShownGatherBuffers& buffers) const {
+  const auto room = [&](std::size_t bytes, Buffer& buffer) {
+    buffer.reserve(device_, pixels * bytes, "light that shown surfaces gather");
+    return buffer.address();
+  };
+  return {{room(sizeof(vec3), buffers.geometric_normals_ws)},
+          {room(sizeof(vec3), buffers.gathered)},
+          {room(sizeof(float), buffers.variance)},
+          {room(sizeof(vec3), buffers.excess)},
+          {room(sizeof(vec3), buffers.looked_up)},
+          {room(sizeof(vec3), buffers.albedo)},
+          {room(sizeof(vec3), buffers.filtered)}};
+}
+
 /// Gathers the light of the surfaces `bases`, one for each pixel of the band; see
 /// gather/shown_gather.cpp.
-void FramePassesVulkan::gather_shown(ShownBaseArray bases, const Buffer& looked_up,
-                                     Vec3Array irradiance, FloatArray variance, Vec3Array excess) {
+void FramePassesVulkan::gather_shown(ShownBaseArray bases, ShownGatherBuffers& buffers,
+                                     const ShownGatherRecord& kept) {
   FrameMemory& m = memory_;
   reserve<LitPointRecord>(pixels_, "points that are shown", m.shown_points);
   reserve<PixelSurfaceRecord>(pixels_, "surfaces that are shown", m.shown_surfaces);
   reserve<QueryRecord>(pixels_, "queries of points that are shown", m.shown_queries);
   reserve<uint>(1, "number of points that are shown", m.shown_points_found);
+  reserve<vec3>(pixels_, "lookups at points that are shown", buffers.band_lookups);
   add("gather", [=, this, &m](Recorder& to) {
     to.fill(m.shown_points_found, 0u);
     to.barrier();
@@ -240,17 +256,28 @@ void FramePassesVulkan::gather_shown(ShownBaseArray bases, const Buffer& looked_
   vulkan::read(device_, m.shown_points_found, std::span(&points, 1));
   if (points == 0) return;
   look_up("gather", *request_->sources.field, m.shown_queries, pixels_, pixel_correction(*request_),
-          looked_up);
+          buffers.band_lookups);
   const auto rays = static_cast<std::uint32_t>(shown_gather_rays(request_->settings));
   frame_->rays += std::uint64_t{points} * rays;
+  const std::uint64_t at = first_traced_pixel();
   gather_light({{m.shown_points.address()},
                 {m.shown_surfaces.address()},
                 rays,
                 /*guided=*/false,
-                {looked_up.address()},
-                irradiance,
-                variance,
-                excess});
+                {buffers.band_lookups.address()},
+                {kept.gathered.address + at * sizeof(vec3)},
+                {kept.variance.address + at * sizeof(float)},
+                {kept.excess.address + at * sizeof(vec3)}});
+}
+
+/// Filters what shown surfaces gathered. `view`: places and depths of the surfaces.
+void FramePassesVulkan::denoise_shown(Recorder& to, DenoiseViewOnDevice view,
+                                      const ShownGatherRecord& kept) {
+  view.normals_ws = kept.geometric_normals_ws;
+  const bool several = shown_gather_rays(request_->settings) > 1;
+  denoise_gathered(to, view,
+                   {kept.gathered, kept.looked_up, several ? kept.variance : FloatArray{}},
+                   kept.excess, kept.filtered);
 }
 
 }  // namespace lambent

@@ -39,16 +39,8 @@ void FramePassesVulkan::make_room_for_mirrors(std::size_t pixels) {
   r.mirrored_base_normals_ws.address = room(bases, sizeof(vec3), f.mirrored_base_normals_ws);
   r.mirrored_base_depths.address = room(bases, sizeof(float), f.mirrored_base_depths);
   r.filtered_mirrored_emitters.address = room(bases, sizeof(vec3), f.filtered_mirrored_emitters);
-  const std::size_t gathered = (kept & kGathersInMirrors) != 0u ? pixels : 0;
-  r.mirrored_geometric_normals_ws.address =
-      room(gathered, sizeof(vec3), f.mirrored_geometric_normals_ws);
-  r.mirrored_gathered.address = room(gathered, sizeof(vec3), f.mirrored_gathered);
-  r.mirrored_gathered_variance.address =
-      room(gathered, sizeof(float), f.mirrored_gathered_variance);
-  r.mirrored_excess.address = room(gathered, sizeof(vec3), f.mirrored_excess);
-  r.mirrored_looked_up.address = room(gathered, sizeof(vec3), f.mirrored_looked_up);
-  r.mirrored_indirect_albedo.address = room(gathered, sizeof(vec3), f.mirrored_indirect_albedo);
-  r.filtered_mirrored_gathered.address = room(gathered, sizeof(vec3), f.filtered_mirrored_gathered);
+  r.mirrored_gather =
+      room_to_gather((kept & kGathersInMirrors) != 0u ? pixels : 0, f.mirrored_gather);
 }
 
 /// Stores the surfaces that pixels' mirrors show, for paths in the list `from`.
@@ -81,13 +73,9 @@ std::uint64_t FramePassesVulkan::first_of_band() const {
 }
 
 void FramePassesVulkan::gather_in_mirrors() {
-  reserve<vec3>(pixels_, "lookups in mirrors", memory_.looked_up_in_mirrors);
-  const FilteredPixelsRecord& kept = memory_.filtered.record;
-  const std::uint64_t at = first_traced_pixel();
+  FilteredBuffers& f = memory_.filtered;
   gather_shown({memory_.mirrored_bases.address() + first_of_band() * sizeof(ShownBase)},
-               memory_.looked_up_in_mirrors, {kept.mirrored_gathered.address + at * sizeof(vec3)},
-               {kept.mirrored_gathered_variance.address + at * sizeof(float)},
-               {kept.mirrored_excess.address + at * sizeof(vec3)});
+               f.mirrored_gather, f.record.mirrored_gather);
 }
 
 /// Stores what the coats that the band's mirrors show reflect, and the light of the surfaces there.
@@ -100,7 +88,7 @@ void FramePassesVulkan::keep_mirrored() {
         {memory_.surfaces.address()},
         {memory_.mirrored.address() + before * sizeof(MirroredCoat)},
         {memory_.mirrored_bases.address() + before * sizeof(ShownBase)},
-        {memory_.looked_up_in_mirrors.address()},
+        {memory_.filtered.mirrored_gather.band_lookups.address()},
         {memory_.pixel_fog.address()},
         {memory_.filtered.addresses.address()},
         vec3(view[3]),
@@ -129,13 +117,7 @@ void FramePassesVulkan::denoise_mirrored_bases(Recorder& to, DenoiseViewOnDevice
                             {r.mirrored_emitters, {}, variance, r.mirrored_emitter_levels},
                             emitter_denoising(), r.filtered_mirrored_emitters);
   }
-  if ((kept & kGathersInMirrors) == 0u) return;
-  view.normals_ws = r.mirrored_geometric_normals_ws;
-  const bool several = shown_gather_rays(request_->settings) > 1;
-  denoise_gathered(to, view,
-                   {r.mirrored_gathered, r.mirrored_looked_up,
-                    several ? r.mirrored_gathered_variance : FloatArray{}},
-                   r.mirrored_excess, r.filtered_mirrored_gathered);
+  if ((kept & kGathersInMirrors) != 0u) denoise_shown(to, view, r.mirrored_gather);
 }
 
 }  // namespace lambent

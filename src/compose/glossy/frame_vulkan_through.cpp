@@ -135,16 +135,7 @@ void FramePassesVulkan::begin_through(std::size_t pixels) {
   r.filtered.address =
       shows_rough_glass(*request_) ? room(sizeof(vec3), t.filtered) : r.light.address;
   const bool gathers = gathers_behind_glass(*request_);
-  const auto room_to_gather = [&](std::size_t bytes, Buffer& buffer) {
-    return gathers ? room(bytes, buffer) : 0;
-  };
-  r.geometric_normals_ws.address = room_to_gather(sizeof(vec3), t.geometric_normals_ws);
-  r.gathered.address = room_to_gather(sizeof(vec3), t.gathered);
-  r.gathered_variance.address = room_to_gather(sizeof(float), t.gathered_variance);
-  r.excess.address = room_to_gather(sizeof(vec3), t.excess);
-  r.looked_up.address = room_to_gather(sizeof(vec3), t.looked_up);
-  r.indirect_albedo.address = room_to_gather(sizeof(vec3), t.indirect_albedo);
-  r.filtered_gathered.address = room_to_gather(sizeof(vec3), t.filtered_gathered);
+  r.gather = room_to_gather(gathers ? pixels : 0, t.gather);
   const bool long_ways = filters_long_ways(*request_);
   r.long_ways.address = long_ways ? room(sizeof(vec3), t.long_ways) : 0;
   r.glass_depths.address = long_ways ? room(sizeof(float), t.glass_depths) : 0;
@@ -152,8 +143,8 @@ void FramePassesVulkan::begin_through(std::size_t pixels) {
   const int width = request_->settings.width;
   const auto of_a_band =
       static_cast<std::size_t>(rows_of_a_band(width)) * static_cast<std::size_t>(width);
-  reserve<ShownBase>(gathers ? of_a_band : 0, "surfaces behind glass", memory_.bases_behind);
-  r.bases.address = memory_.bases_behind.address();
+  reserve<ShownBase>(gathers ? of_a_band : 0, "surfaces behind glass", t.bases);
+  r.bases.address = t.bases.address();
   reserve<SeenThroughRecord>(1, "where what is seen through surfaces is", t.addresses);
   vulkan::write(device_, std::span<const SeenThroughRecord>(&r, 1), t.addresses);
 }
@@ -195,12 +186,8 @@ void FramePassesVulkan::keep_behind(Recorder& to, std::uint32_t paths, const Pat
 }
 
 void FramePassesVulkan::gather_behind_glass() {
-  const SeenThroughRecord& kept = memory_.through.record;
-  const std::uint64_t at = first_traced_pixel();
-  reserve<vec3>(pixels_, "lookups behind glass", memory_.looked_up_behind);
-  gather_shown(kept.bases, memory_.looked_up_behind, {kept.gathered.address + at * sizeof(vec3)},
-               {kept.gathered_variance.address + at * sizeof(float)},
-               {kept.excess.address + at * sizeof(vec3)});
+  SeenThroughBuffers& t = memory_.through;
+  gather_shown(t.record.bases, t.gather, t.record.gather);
 }
 
 /// Stores the light transmitted through the surfaces of the band's pixels.
@@ -212,7 +199,7 @@ void FramePassesVulkan::keep_through() {
                                             {m.coat_rays.address()},
                                             {m.coat_distances.address()},
                                             {m.pixel_fog.address()},
-                                            {m.looked_up_behind.address()},
+                                            {m.through.gather.band_lookups.address()},
                                             {m.filtered.record.depths.address},
                                             {m.through.addresses.address()},
                                             first_traced_pixel(),
@@ -246,14 +233,7 @@ void FramePassesVulkan::denoise_through(const DenoiseViewOnDevice& view, const S
       memory_.denoiser.record(to, behind, {r.emitters, {}, variance, r.emitter_levels},
                               emitter_denoising(), r.filtered_emitters);
     }
-    if (gathers) {
-      DenoiseViewOnDevice by_geometry = behind;
-      by_geometry.normals_ws = r.geometric_normals_ws;
-      const bool several = shown_gather_rays(request_->settings) > 1;
-      denoise_gathered(to, by_geometry,
-                       {r.gathered, r.looked_up, several ? r.gathered_variance : FloatArray{}},
-                       r.excess, r.filtered_gathered);
-    }
+    if (gathers) denoise_shown(to, behind, r.gather);
     if (long_ways) {
       DenoiseViewOnDevice of_glass = view;
       of_glass.depths = r.glass_depths;

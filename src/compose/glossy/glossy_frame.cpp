@@ -106,7 +106,7 @@ std::uint64_t Glossy::send_rays(const GlossySettings& settings, std::span<const 
     mirrored_.assign(pixels, no_mirrored_coat());
     mirrored_bases_.assign(pixels, no_shown_base());
   }
-  gathers_in_mirrors_ = keeps_mirrored && shown_gather_rays(settings.frame) > 0;
+  gathers_in_mirrors_ = keeps_mirrored && settings.gathers_shown;
 
   const auto rows_between = static_cast<uint>(settings.frame.glossy_rows);
   const auto sample = static_cast<uint>(settings.sample);
@@ -309,7 +309,8 @@ GlossySettings glossy_settings(const FrameRequest& request, const FrameSettings&
           camera_record(request.camera, frame.width, frame.height),
           request.drawn(sample),
           request.jitter(),
-          request.round.first};
+          request.round.first,
+          gathers_shown(request)};
 }
 
 std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sample, CoatKind kind,

@@ -81,8 +81,8 @@ class Glossy {
 
   uint salt_ = 0;                    // of the random numbers
   bool samples_behind_ = false;      // there may be lights behind rough surfaces to sample
-  bool gathers_in_mirrors_ = false;  // see shown_gather_rays()
-  bool gathers_behind_ = false;
+  bool gathers_in_mirrors_ = false;  // see gathers_in_mirrors()
+  bool gathers_behind_ = false;      // see gathers_behind_glass()
   // One entry for each pixel of the rows around the band
   int first_row_ = 0;
   std::vector<CoatRay> rays_;

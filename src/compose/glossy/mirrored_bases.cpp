@@ -48,8 +48,7 @@ bool filters_mirrored_light(const FrameRequest& request) {
 }
 
 bool gathers_in_mirrors(const FrameRequest& request) {
-  return gathers(request) && shown_gather_rays(request.settings) > 0 &&
-         filters_mirrored_light(request);
+  return gathers_shown(request) && filters_mirrored_light(request);
 }
 
 }  // namespace lambent

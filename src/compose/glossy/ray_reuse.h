@@ -19,9 +19,10 @@ struct GlossySettings {
   const IrradianceField* field;  ///< Null: there is none.
   const FrameSettings& frame;
   CameraRecord camera;
-  int sample = 0;            ///< Index among the samples of all frames.
-  std::uint32_t jitter = 0;  ///< See camera_cone().
-  int first_of_round = 0;    ///< See SampleRound.
+  int sample = 0;              ///< Index among the samples of all frames.
+  std::uint32_t jitter = 0;    ///< See camera_cone().
+  int first_of_round = 0;      ///< See SampleRound.
+  bool gathers_shown = false;  ///< See gathers_shown().
 };
 
 /// Successive rows of a picture, with the surfaces that the camera sees.

@@ -87,7 +87,7 @@ inline bool filters_through(const FrameRequest& request) {
 
 /// Whether the first opaque surfaces behind glass gather their indirect light by rays of their own.
 inline bool gathers_behind_glass(const FrameRequest& request) {
-  return gathers(request) && shown_gather_rays(request.settings) > 0 && filters_through(request);
+  return gathers_shown(request) && filters_through(request);
 }
 
 /// Whether light that has come a long way through glass is filtered: that of volumes, within which

@@ -4,6 +4,7 @@
 #define LAMBENT_COMPOSE_GLOSSY_SEEN_THROUGH_RECORDS_H
 
 #include "compose/frame_records.h"
+#include "compose/gather/shown_gather_records.h"
 #include "denoise/denoise_records.h"
 
 LAMBENT_BEGIN
@@ -27,15 +28,8 @@ struct SeenThroughRecord {
   FloatArray glass_depths;
   LobeGuideArray lobes;
   FloatArray distances;
-  // Written where the surfaces gather light; see ShownGatherPixels
-  ShownBaseArray bases;  ///< One for each pixel of the band.
-  Vec3Array geometric_normals_ws;
-  Vec3Array gathered;
-  FloatArray gathered_variance;
-  Vec3Array excess;
-  Vec3Array looked_up;
-  Vec3Array indirect_albedo;
-  Vec3Array filtered_gathered;
+  ShownBaseArray bases;  ///< One for each pixel of the band; written where these gather light.
+  ShownGatherRecord gather;
   Vec3Array filtered_emitters;
   Vec3Array filtered_coats;
   Vec3Array filtered_long_ways;

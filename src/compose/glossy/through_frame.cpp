@@ -111,7 +111,7 @@ std::uint64_t Glossy::look_through(const GlossySettings& settings, const GlossyR
                                    const KeptBehind& kept, TransmittedLight& light) {
   start(settings, band.first_row, band.pixels.size(), kThroughSalt);
   forks_.start(band.pixels.size());
-  gathers_behind_ = kept.seen != nullptr && !kept.seen->gather.empty();
+  gathers_behind_ = kept.seen != nullptr && settings.gathers_shown;
   bases_behind_.assign(gathers_behind_ ? band.pixels.size() : 0, no_shown_base());
   const std::uint64_t sent = send_through(settings, band.pixels);
   std::uint64_t traced = samples_behind_ ? sample_lights_behind(settings, band.pixels, 0) : 0;

@@ -17,7 +17,7 @@ void main() {
     light += args.seen.at[0].emitter_albedo.at[i] * args.seen.at[0].filtered_emitters.at[i];
   }
   if (args.gathers != 0u && args.seen.at[0].depths.at[i] > 0.0f) {
-    light += args.seen.at[0].indirect_albedo.at[i] * args.seen.at[0].filtered_gathered.at[i];
+    light += args.seen.at[0].gather.albedo.at[i] * args.seen.at[0].gather.filtered.at[i];
   }
   if (args.long_ways != 0u && args.seen.at[0].glass_depths.at[i] > 0.0f) {
     light += args.seen.at[0].filtered_long_ways.at[i];

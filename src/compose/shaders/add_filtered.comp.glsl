@@ -51,8 +51,8 @@ void main() {
                 pixels.filtered_mirrored_emitters.at[i];
     }
     if (args.mirrored_gathered != 0u) {
-      glossy += args.share * pixels.mirrored_indirect_albedo.at[i] *
-                pixels.filtered_mirrored_gathered.at[i];
+      glossy +=
+          args.share * pixels.mirrored_gather.albedo.at[i] * pixels.mirrored_gather.filtered.at[i];
     }
     layers.glossy += glossy;
     layers.all += glossy;

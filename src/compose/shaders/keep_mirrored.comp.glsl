@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "compose/filter_records.h"
 #include "compose/pixel_math.h"
+#include "compose/shaders/shown_gather.glsl"
 #include "glossy/glossy_records.h"
 
 layout(local_size_x = 64) in;
@@ -25,18 +26,16 @@ void keep_base(uint i, uint pixel, PixelSurfaceRecord surface) {
   FilteredPixelsRecord kept = args.pixels.at[0];
   bool gathers = (args.keeps & kGathersInMirrors) != 0u;
   kept.mirrored_emitter_albedo.at[pixel] = vec3(0.0f);
-  if (gathers) kept.mirrored_indirect_albedo.at[pixel] = vec3(0.0f);
+  if (gathers) kept.mirrored_gather.albedo.at[pixel] = vec3(0.0f);
   if ((surface.flags & kSurfaceSkipped) != 0u) return;
   kept.mirrored_base_depths.at[pixel] = 0.0f;
   kept.mirrored_emitter_levels.at[pixel] = 0.0f;
   kept.mirrored_emitters.at[pixel] = vec3(0.0f);
   if (args.draws > 1u) kept.mirrored_emitter_variance.at[pixel] = 0.0f;
   ShownBase base = args.bases.at[i];
-  if (gathers && base.indirect_albedo == vec3(0.0f)) {
-    kept.mirrored_gathered.at[pixel] = vec3(0.0f);
-    kept.mirrored_gathered_variance.at[pixel] = 0.0f;
-    kept.mirrored_excess.at[pixel] = vec3(0.0f);
-    kept.mirrored_looked_up.at[pixel] = vec3(0.0f);
+  vec3 weight = shown_weight(i, surface) * args.mirrored.at[i].mirror_share;
+  if (gathers) {
+    keep_shown_gather(kept.mirrored_gather, base, weight, args.looked_up.at[i], pixel);
   }
   if ((surface.flags & kSurfaceMissed) != 0u || base.shown == 0u) return;
   vec3 mirror_ws = args.points.at[i].position_ws;
@@ -46,14 +45,8 @@ void keep_base(uint i, uint pixel, PixelSurfaceRecord surface) {
   kept.mirrored_base_normals_ws.at[pixel] = base.normal_ws;
   kept.mirrored_emitters.at[pixel] = base.light;
   kept.mirrored_emitter_levels.at[pixel] = base.level;
-  vec3 weight = shown_weight(i, surface) * args.mirrored.at[i].mirror_share;
   kept.mirrored_emitter_albedo.at[pixel] = weight * base.emitter_albedo;
   if (args.draws > 1u) kept.mirrored_emitter_variance.at[pixel] = base.variance;
-  if (!gathers) return;
-  kept.mirrored_geometric_normals_ws.at[pixel] = base.geometric_normal_ws;
-  kept.mirrored_indirect_albedo.at[pixel] = weight * base.indirect_albedo;
-  if (base.indirect_albedo == vec3(0.0f)) return;
-  kept.mirrored_looked_up.at[pixel] = base.gi_share * args.looked_up.at[i];
 }
 
 void main() {

@@ -4,26 +4,13 @@
 #extension GL_GOOGLE_include_directive : require
 #include "compose/glossy/seen_through_records.h"
 #include "compose/pixel_math.h"
+#include "compose/shaders/shown_gather.glsl"
 #include "glossy/path_math.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
   KeepThroughArguments args;
 };
-
-/// See ShownGatherPixels::keep().
-void keep_gather(uint i, uint pixel, vec3 tint) {
-  SeenThroughRecord seen = args.seen.at[0];
-  ShownBase base = seen.bases.at[i];
-  seen.geometric_normals_ws.at[pixel] = base.geometric_normal_ws;
-  bool gathers = base.indirect_albedo != vec3(0.0f);
-  seen.looked_up.at[pixel] = gathers ? base.gi_share * args.looked_up.at[i] : vec3(0.0f);
-  seen.indirect_albedo.at[pixel] = base.indirect_albedo / tint;
-  if (gathers) return;
-  seen.gathered.at[pixel] = vec3(0.0f);
-  seen.gathered_variance.at[pixel] = 0.0f;
-  seen.excess.at[pixel] = vec3(0.0f);
-}
 
 void main() {
   uint i = gl_GlobalInvocationID.x;
@@ -49,7 +36,10 @@ void main() {
     if (args.seen.at[0].coat_lobes.at[pixel].sharpness > 0.0f) {
       args.seen.at[0].coat_distances.at[pixel] = args.coat_distances.at[i];
     }
-    if (args.gathers != 0u) keep_gather(i, pixel, tint);
+    if (args.gathers != 0u) {
+      keep_shown_gather(args.seen.at[0].gather, args.seen.at[0].bases.at[i], 1.0f / tint,
+                        args.looked_up.at[i], pixel);
+    }
   }
   float passed = args.has_fog != 0u ? args.fog.at[i].w : 1.0f;
   args.seen.at[0].albedo.at[pixel] = surface.sample_weight * passed * tint;

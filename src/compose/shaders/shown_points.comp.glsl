@@ -14,14 +14,19 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
   uint flags = args.surfaces.at[i].flags & (kSurfaceMissed | kSurfaceSkipped);
+  // Rays and lookups of pixels that show nothing are not used, but computed: at numbers, since what
+  // kernels read at NaN may lie outside of the field
+  const vec3 up = vec3(0.0f, 1.0f, 0.0f);
+  LitPointRecord point = LitPointRecord(vec3(0.0f), up, up, kNoDirectLight, 0u, vec3(0.0f), 0.0f,
+                                        uintBitsToFloat(kMissedDistanceBits), 1.0f);
+  args.points.at[i] = point;
   args.shown_surfaces.at[i].flags = flags | kSurfaceMissed;
-  args.queries.at[i] = QueryRecord(vec3(0.0f), vec3(0.0f, 1.0f, 0.0f), vec3(0.0f), 0.0f);
+  args.queries.at[i] = QueryRecord(point.position_ws, up, vec3(0.0f), 0.0f);
   if (flags != 0u) return;
   ShownBase base = args.bases.at[i];
   if (base.indirect_albedo == vec3(0.0f)) return;
   args.shown_surfaces.at[i].flags = 0u;
   args.shown_surfaces.at[i].gi_share = base.gi_share;
-  LitPointRecord point = args.points.at[i];
   point.position_ws = base.position_ws;
   point.normal_ws = base.normal_ws;
   point.geometric_normal_ws = base.geometric_normal_ws;

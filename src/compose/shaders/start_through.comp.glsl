@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/glossy/seen_through_records.h"
+#include "compose/shaders/shown_gather.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
@@ -18,7 +19,7 @@ void main() {
   args.seen.at[0].albedo.at[pixel] = vec3(0.0f);
   if (args.gathers != 0u) {
     args.seen.at[0].bases.at[i] = no_shown_base();
-    args.seen.at[0].indirect_albedo.at[pixel] = vec3(0.0f);
+    args.seen.at[0].gather.albedo.at[pixel] = vec3(0.0f);
   }
   if (args.long_ways != 0u) args.seen.at[0].glass_depths.at[pixel] = 0.0f;
   if ((args.surfaces.at[i].flags & kSurfaceSkipped) != 0u) return;
@@ -32,11 +33,6 @@ void main() {
   args.seen.at[0].distances.at[pixel] = -1.0f;
   args.seen.at[0].light.at[pixel] = vec3(0.0f);
   if (args.long_ways != 0u) args.seen.at[0].long_ways.at[pixel] = vec3(0.0f);
-  if (args.gathers != 0u) {
-    args.seen.at[0].gathered.at[pixel] = vec3(0.0f);
-    args.seen.at[0].gathered_variance.at[pixel] = 0.0f;
-    args.seen.at[0].excess.at[pixel] = vec3(0.0f);
-    args.seen.at[0].looked_up.at[pixel] = vec3(0.0f);
-  }
+  if (args.gathers != 0u) empty_shown_gather(args.seen.at[0].gather, pixel);
   args.seen.at[0].lobes.at[pixel].sharpness = 0.0f;
 }
