@@ -19,6 +19,10 @@ constexpr std::size_t kLeastBytes = 16;
 constexpr std::size_t kMaxNearBytes = 1 << 20;
 // Fills and copies are in multiples of this [bytes].
 constexpr std::size_t kWord = 4;
+// Device memory that the host can see begins with these words in turn where asserts are on, so that
+// what reads memory that nobody wrote shows: as floats, NaN, and -2 beside it; as indices, far out
+// of range.
+[[maybe_unused]] constexpr std::uint32_t kPoison[] = {0xFFFFFFFFu, 0xC0000000u};
 
 /// The memory type for a buffer, among the allowed `types`: one with all preferred properties,
 /// otherwise one with the required ones.
@@ -41,6 +45,12 @@ std::uint32_t memory_type(const Device& device, std::uint32_t types, Memory memo
     }
   }
   throw std::runtime_error("the Vulkan device has no memory for buffers of this kind");
+}
+
+[[maybe_unused]] void poison(std::byte* memory, std::size_t bytes) {
+  for (std::size_t at = 0; at < bytes; at += sizeof(kPoison)) {
+    std::memcpy(memory + at, kPoison, std::min(sizeof(kPoison), bytes - at));
+  }
 }
 
 }  // namespace
@@ -77,12 +87,23 @@ Buffer::Buffer(const Device& device, std::size_t bytes, Memory memory, const std
     const VkDeviceAddress start = f.vkGetBufferDeviceAddress(device.handle(), &where);
     address_ = (start + alignment - 1) / alignment * alignment;
     offset_ = address_ - start;
-    if (memory != Memory::device) {
+    const auto map = [&] {
       void* mapped = nullptr;
       check(f.vkMapMemory(device.handle(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped), "vkMapMemory");
-      host_ = static_cast<std::byte*>(mapped) + offset_;
+      return static_cast<std::byte*>(mapped) + offset_;
+    };
+    if (memory != Memory::device) {
+      host_ = map();
       std::memset(host_, 0, bytes_);
     }
+#ifndef NDEBUG
+    const VkMemoryPropertyFlags properties =
+        device.memory().memoryTypes[allocation.memoryTypeIndex].propertyFlags;
+    if (memory == Memory::device && (properties & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0) {
+      poison(map(), bytes_);
+      f.vkUnmapMemory(device.handle(), memory_);
+    }
+#endif
   } catch (...) {
     release();
     throw;

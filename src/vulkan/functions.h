@@ -86,6 +86,7 @@ namespace lambent::vulkan {
   X(vkGetQueryPoolResults)                         \
   X(vkGetRayTracingShaderGroupHandlesKHR)          \
   X(vkMapMemory)                                   \
+  X(vkUnmapMemory)                                 \
   X(vkQueueSubmit)                                 \
   X(vkResetFences)                                 \
   X(vkUpdateDescriptorSets)                        \

@@ -14,8 +14,8 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
   uint flags = args.surfaces.at[i].flags & (kSurfaceMissed | kSurfaceSkipped);
-  // Rays and lookups of pixels that show nothing are not used, but computed: at numbers, since what
-  // kernels read at NaN may lie outside of the field
+  // Rays and lookups of pixels that show nothing are not used, but computed: at a point, since
+  // lookups at what is not finite may read outside of the field
   const vec3 up = vec3(0.0f, 1.0f, 0.0f);
   LitPointRecord point = LitPointRecord(vec3(0.0f), up, up, kNoDirectLight, 0u, vec3(0.0f), 0.0f,
                                         uintBitsToFloat(kMissedDistanceBits), 1.0f);
