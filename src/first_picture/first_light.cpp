@@ -14,6 +14,7 @@
 #include "first_picture/subject.h"
 #include "first_picture/survey.h"
 #include "lambent/first_picture.h"
+#include "raytracing/boxes.h"
 #include "raytracing/trace_rays.h"
 #include "shared/rays.h"
 
@@ -235,6 +236,11 @@ bool is_outdoors(const World& world) {
   return has_ground(world, subject.bounds);
 }
 
+/// Whether a camera stands among the things of a scene, rather than looking at them from outside.
+bool stands_among(const World& world, const Camera& camera) {
+  return contains(find_subject(world).bounds, glm::vec3(camera.world_from_view[3]));
+}
+
 /// Whether suns shine out of a void that the camera sees past things on a ground, over a court, or
 /// through the windows of a room, that the ground lies under, or whose light would reach what is
 /// seen of a room. Objects by themselves stay before the black that their author left.
@@ -274,7 +280,7 @@ FirstLight choose_without_lights(const World& world, const Camera& camera) {
     if (closed && through_doors) return FirstLight::scene;
     return closed ? FirstLight::lamps : FirstLight::sun;
   }
-  return is_outdoors(world) ? FirstLight::sun : FirstLight::studio;
+  return is_outdoors(world) || stands_among(world, camera) ? FirstLight::sun : FirstLight::studio;
 }
 
 }  // namespace

@@ -2,7 +2,12 @@
 #include "first_picture/site.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <set>
 #include <span>
+#include <tuple>
 #include <unordered_set>
 
 #include "first_picture/survey.h"
@@ -18,6 +23,9 @@ namespace {
 constexpr float kMinGroundSpan = 0.7f, kMaxGroundHeight = 0.4f, kMinSiteWidth = 15.0f;
 // What stands on a ground is at least this high [m]: paths, ponds and kerbs belong to the ground.
 constexpr float kMinThingHeight = 0.5f;
+// Of more meshes that are alike than this, none is a kind of its own: a wood or a meadow, rather
+// than the furniture of a camp.
+constexpr std::size_t kMaxAlike = 8;
 // Rays up along each edge of the footprint, from below all. Most of them, at least this share, meet
 // the ground first: roofs, leaves or facades that are one mesh are as wide. And as large a share
 // meets a ground that is a sheet only once.
@@ -73,6 +81,30 @@ void keep_lowest(const World& world, const Subject& subject, Site& site) {
   site.is_ground = lowest;
 }
 
+/// What meshes that are alike have in common: material, and about the number of triangles and the
+/// size.
+using Likeness = std::tuple<int, int, int>;
+
+Likeness likeness(const World& world, std::uint32_t thing) {
+  const Mesh& mesh = world.scene().meshes[world.scene().instances[thing].mesh];
+  const float size = diagonal(world.instance_bounds(static_cast<int>(thing)));
+  return {mesh.material, std::bit_width(mesh.triangles.size()), std::ilogb(size)};
+}
+
+/// Finds the kinds of a site's things.
+void find_kinds(const World& world, Site& site) {
+  std::map<Likeness, std::set<int>> alike;
+  const auto mesh_of = [&](std::uint32_t i) { return world.scene().instances[i].mesh; };
+  for (const std::uint32_t i : site.things) alike[likeness(world, i)].insert(mesh_of(i));
+  std::unordered_set<int> kinds;
+  for (const std::uint32_t i : site.things) {
+    const std::set<int>& meshes = alike[likeness(world, i)];
+    site.kind[i] = meshes.size() > kMaxAlike ? *meshes.begin() : mesh_of(i);
+    kinds.insert(site.kind[i]);
+  }
+  site.kinds = kinds.size();
+}
+
 }  // namespace
 
 std::optional<Site> find_site(const World& world, const Subject& subject) {
@@ -82,6 +114,7 @@ std::optional<Site> find_site(const World& world, const Subject& subject) {
   Site site;
   site.is_ground.resize(scene.instances.size());
   site.is_high.resize(scene.instances.size());
+  site.kind.resize(scene.instances.size());
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const Bounds box = world.instance_bounds(static_cast<int>(i));
     if (box.empty()) continue;
@@ -94,15 +127,13 @@ std::optional<Site> find_site(const World& world, const Subject& subject) {
   }
   keep_lowest(world, subject, site);
   if (std::ranges::find(site.is_ground, true) == site.is_ground.end()) return std::nullopt;
-  std::unordered_set<int> kinds;
   for (const std::uint32_t i : subject.instances) {
     if (site.is_ground[i]) continue;
     site.things.push_back(i);
-    kinds.insert(scene.instances[i].mesh);
     const glm::vec3 size = size_of(world.instance_bounds(static_cast<int>(i)));
     site.is_high[i] = size.y >= kMinThingHeight;
   }
-  site.kinds = kinds.size();
+  find_kinds(world, site);
   return site.things.empty() ? std::nullopt : std::optional(std::move(site));
 }
 

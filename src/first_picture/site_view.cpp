@@ -25,6 +25,8 @@ constexpr float kMaxThings = 0.5f;
 constexpr std::size_t kTargets = 64;
 constexpr float kDistances[] = {1.0f, 1.6f, 2.5f, 4.0f};
 constexpr float kDistanceToSmall = 3.0f;
+// Least number of candidates that are tried: where things are few, from several sides.
+constexpr std::size_t kLeastTries = 512;
 // Views look up and down by at most this slope.
 constexpr float kMaxSlope = 0.2f;
 // Number of rays across and up the frame by which candidates are judged.
@@ -79,12 +81,12 @@ std::vector<std::uint32_t> spread_over(const std::vector<std::uint32_t>& all, st
 }
 
 /// The things that candidates look at: one of each kind, then others.
-std::vector<std::uint32_t> choose_targets(const World& world, const Site& site) {
+std::vector<std::uint32_t> choose_targets(const Site& site) {
   std::unordered_set<int> kinds;
   std::vector<std::uint32_t> firsts, others;
   for (const std::uint32_t i : site.things) {
     if (!site.is_high[i]) continue;
-    (kinds.insert(world.scene().instances[i].mesh).second ? firsts : others).push_back(i);
+    (kinds.insert(site.kind[i]).second ? firsts : others).push_back(i);
   }
   std::vector<std::uint32_t> targets = spread_over(firsts, kTargets);
   const std::vector<std::uint32_t> more = spread_over(others, kTargets - targets.size());
@@ -95,15 +97,20 @@ std::vector<std::uint32_t> choose_targets(const World& world, const Site& site) 
 /// Cameras on the ground that look at things.
 std::vector<Camera> candidates(const World& world, const Subject& subject, const Site& site,
                                float vertical_fov) {
+  const std::vector<std::uint32_t> things = choose_targets(site);
+  if (things.empty()) return {};
+  const std::size_t views = things.size() * std::size(kDistances);
+  const std::size_t sides = (kLeastTries + views - 1) / views;
   std::vector<Ray> down;
   std::vector<glm::vec3> targets;
   const float top = subject.site.max.y + kEyeHeight;
-  for (const std::uint32_t i : choose_targets(world, site)) {
+  for (const std::uint32_t i : things) {
     const Bounds box = world.instance_bounds(static_cast<int>(i));
     const glm::vec3 target = 0.5f * (box.min + box.max);
-    for (const float share : kDistances) {
+    for (std::size_t k = 0; k < sides * std::size(kDistances); ++k) {
       const float azimuth = kTwoPi * kGoldenRatio * static_cast<float>(targets.size());
-      const float distance = share * diagonal(box) + kDistanceToSmall;
+      const float distance =
+          kDistances[k % std::size(kDistances)] * diagonal(box) + kDistanceToSmall;
       const glm::vec3 at = target + distance * direction_from_angles(azimuth, 0.0f);
       down.push_back({{at.x, top, at.z}, 0.0f, {0.0f, -1.0f, 0.0f}});
       targets.push_back(target);
@@ -142,7 +149,7 @@ float score_view(const Scene& scene, const Site& site, std::span<const Hit> hits
     things += 1.0f;
     if (hit.distance < kSiteNear) near += 1.0f;
     if (is_inside_frame(i)) {
-      kinds.insert(scene.instances[hit.instance].mesh);
+      kinds.insert(site.kind[hit.instance]);
     } else {
       cut += 1.0f;
     }

@@ -76,6 +76,34 @@ TEST(SiteView, StandsOnTheGroundBeforeWhatIsOfManyKinds) {
   EXPECT_EQ(choose_first_light(world, view.camera), FirstLight::sun);
 }
 
+TEST(SiteView, TakesAWoodInWhichEachTreeIsAMeshForOneKind) {
+  Scene scene = wide_ground();
+  for (int i = 0; i < 49; ++i) {
+    if (i == 24) continue;
+    const glm::vec3 at(8.0f * static_cast<float>(i % 7 - 3), 0.0f,
+                       8.0f * static_cast<float>(i / 7 - 3));
+    test::add(scene, box_mesh(at - glm::vec3(0.4f, 0, 0.4f),
+                              at + glm::vec3(0.4f, 5.0f + 0.05f * static_cast<float>(i), 0.4f)));
+  }
+  const std::size_t camp = add_camp(scene);
+  const World world(scene);
+  EXPECT_GE(count_seen(world, first_view(world).value().camera, camp), 4u);
+}
+
+TEST(SiteView, OfThingsThatAreThinIsInTheOpen) {
+  // Posts on a lawn, between the rays that look down onto it
+  Scene scene = test::scene_of({test::quad({-8, 0, 8}, {16, 0, 0}, {0, 0, -16}, 0)});
+  for (int i = 0; i < 9; ++i) {
+    const glm::vec3 at(5.0f * static_cast<float>(i % 3 - 1), 0.0f,
+                       5.0f * static_cast<float>(i / 3 - 1));
+    test::add(scene, box_mesh(at - glm::vec3(0.2f, 0, 0.2f), at + glm::vec3(0.2f, 2.6f, 0.2f)));
+  }
+  const World world(scene);
+  const FirstView view = first_view(world).value();
+  EXPECT_TRUE(view.inside);
+  EXPECT_EQ(choose_first_light(world, view.camera), FirstLight::sun);
+}
+
 TEST(SiteView, IsNotOfModelsAndCircuitBoards) {
   // The same, a tenth as large
   Scene model = wide_ground();
