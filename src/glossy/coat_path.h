@@ -5,6 +5,7 @@
 #define LAMBENT_GLOSSY_COAT_PATH_H
 
 #include "raytracing/ray_records.h"
+#include "shared/reservoir.h"
 
 LAMBENT_BEGIN
 
@@ -63,15 +64,16 @@ const uint kStageBeyondMirroredCoat = 10u;
 /// CoatRay::mirrored.
 const uint kStageLongWay = 11u;
 
-// Values of CoatPath::fork: whether a path splits at glass into a refracted and a reflected branch.
+// Values of CoatPath::fork: whether a path splits where glass both transmits and reflects.
 /// It does not split: at each surface one of the two directions is chosen, see glass_choice().
 const uint kForksNowhere = 0u;
-/// It splits at the next smooth surface that both transmits and reflects; see forks().
-const uint kForksNext = 1u;
-/// It has just split, and this is the transmitted branch.
-const uint kForkCrosses = 2u;
-/// It is the reflected branch of a split. These paths are traced after all others have ended.
-const uint kForkReflected = 3u;
+/// It splits at each smooth surface of glass, see forks(): it goes on as the greater part of the
+/// light, and the lesser part is a branch, of which each pixel keeps one, see keeps_branch().
+const uint kForks = 1u;
+/// It does what kForks says, and has just split.
+const uint kHasForked = 2u;
+/// It is the branch that the pixel has kept. These paths are traced after all others have ended.
+const uint kForkBranch = 3u;
 
 /// The state of a path through the scene.
 struct CoatPath {
@@ -85,6 +87,8 @@ struct CoatPath {
   /// emitter_density_scale() of the surface that `pdf` belongs to [m^2/W]; 0 where no samples are
   /// taken there.
   float density_scale;
+  Reservoir branches;  ///< Of paths that fork: the draw among their branches.
+  uint branch_slot;    ///< Index of the branch kept, in lists on devices; valid if there is one.
 };
 LAMBENT_DEVICE_ARRAY(CoatPathArray, CoatPath, 4)
 

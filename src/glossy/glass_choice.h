@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// How paths through glass choose between reflection and crossing.
+// How paths through glass choose between reflection and crossing, and between their branches.
 #ifndef LAMBENT_GLOSSY_GLASS_CHOICE_H
 #define LAMBENT_GLOSSY_GLASS_CHOICE_H
 
 #include "scene/coverage.h"
 #include "shared/owen.h"
+#include "shared/reservoir.h"
 
 LAMBENT_BEGIN
 
@@ -52,6 +53,23 @@ LAMBENT_FN GlassChoice glass_choice(uint pixel, uint path_step, uint seed) {
   GlassChoice choice = {uniform_from_bits(bitfieldReverse(scramble_reversed(index, order.y))),
                         least};
   return choice;
+}
+
+/// The number by which a pixel's sample draws one of its branches, see CoatPath::branches. Bounces,
+/// which have numbers of their own, count from 1.
+LAMBENT_FN float branch_number(uint pixel, uint sample_index, uint seed) {
+  return glass_choice(pixel, pack_path_step(0u, sample_index, 1u), seed).number;
+}
+
+/// Offers a branch of this weight, above 0, to the draw of its path: whether the pixel keeps it in
+/// place of the one that it has. `factor`: of the throughput of the one that is kept then.
+///
+/// Each branch is kept with a probability in proportion to its weight, and stands for all.
+LAMBENT_FN bool keeps_branch(float weight, LAMBENT_INOUT(Reservoir) branches,
+                             LAMBENT_INOUT(float) factor) {
+  bool is_kept = accepts(branches, weight);
+  factor = branches.sum / (is_kept ? weight : branches.sum - weight);
+  return is_kept;
 }
 
 /// A chance that is neither 0 nor 1, moved away from both.

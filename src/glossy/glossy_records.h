@@ -61,7 +61,7 @@ struct ThroughRaysArguments {
   uint salt;
   uint seed;
   uint emitter_samples;  ///< Of the light behind surfaces.
-  uint padding;
+  uint sample_index;
 };
 
 /// Shades hits of the sky and of emitters, and writes two field queries for each path.
@@ -101,18 +101,18 @@ struct CoatLightArguments {
   uint emitter_samples;  ///< Of the direct light of hits.
 };
 
-/// Appends the reflected branches of paths that split at glass.
+/// Lists one of the branches of each path that splits at glass.
 struct SplitPathsArguments {
   LitPointArray points;  ///< One a path, as are the next three arrays.
   PixelSurfaceArray surfaces;
   CoatPathArray paths;
   UintArray pixels;
-  PathList reflected;  ///< Reflected branches are appended here.
+  PathList branches;  ///< Has a place for each path that has split.
   uint count;
   uint first_index;
   uint salt;
   uint seed;
-  uint path_step;        ///< See pack_path_step().
+  uint bounce;
   uint emitter_samples;  ///< Of the direct light of hits.
 };
 

@@ -59,7 +59,7 @@ LAMBENT_FN CoatShares regularize_lobes(float n_dot_v, float gi_share, uint bounc
 /// to the ray's first hit, or, of a path through surfaces, to the first opaque one.
 LAMBENT_FN float distance_met(CoatPath path, uint bounce, float so_far, float further) {
   if (bounce == 1u) return further;
-  if (path.fork == kForkReflected) return so_far;
+  if (path.fork == kForkBranch) return so_far;
   return path.stage == kStageThroughGlass ? so_far + further : so_far;
 }
 
@@ -67,7 +67,7 @@ LAMBENT_FN float distance_met(CoatPath path, uint bounce, float so_far, float fu
 /// behind further glass. `so_far` is below 0 until the coat's ray has hit something; `further` is
 /// added on each hit of such a path.
 LAMBENT_FN float farther_seen(CoatPath path, float so_far, float further) {
-  bool adds = path.stage == kStageCoatBehindGlass && path.fork != kForkReflected;
+  bool adds = path.stage == kStageCoatBehindGlass && path.fork != kForkBranch;
   return adds ? max(so_far, 0.0f) + further : so_far;
 }
 
@@ -75,7 +75,7 @@ LAMBENT_FN float farther_seen(CoatPath path, float so_far, float further) {
 /// be filtered.
 LAMBENT_FN bool reaches_opaque_surface(CoatPath path, Transmission through) {
   bool is_first = path.stage == kStageOther || path.stage == kStageThroughGlass;
-  return is_first && path.fork != kForkReflected && !is_transmissive(through);
+  return is_first && path.fork != kForkBranch && !is_transmissive(through);
 }
 
 /// Bounce from which reflected branches count: distances are found on bounce 1, which none has.
@@ -305,20 +305,34 @@ LAMBENT_FN float crossing_chance(Transmission through, Reflectance coat, float c
                               coat_share * specular_albedo(coat, n_dot_v));
 }
 
-/// Whether a path splits into a transmitted and a reflected branch at the surface that it hit, as
-/// long as it has met few: bounces of a branch count from kFirstBounceOfForks again.
-/// Where samples are stratified, it does so at the next glass that it enters: they show what the
-/// far side of the glass before it reflects well enough.
+/// Whether a path splits into two branches at the surface that it hit on bounce `bounce`.
 LAMBENT_FN bool forks(CoatPath path, Transmission through, Reflectance coat, float coat_share,
-                      float n_dot_v, uint path_step) {
-  if (path.fork != kForksNext || through.alpha > kStraightAlpha) return false;
+                      float n_dot_v, uint bounce) {
+  if (path.fork != kForks || through.alpha > kStraightAlpha) return false;
   if (path.stage == kStageLongWay) return false;
-  float crossing = crossing_chance(through, coat, coat_share, n_dot_v, bounce_of_step(path_step));
-  if (through.kind == kLeavesVolume) {
-    if (is_stratified(path_step)) return false;
-    crossing *= 1.0f - inner_reflection(n_dot_v, through.eta);
-  }
+  float crossing = crossing_chance(through, coat, coat_share, n_dot_v, bounce);
+  if (through.kind == kLeavesVolume) crossing *= 1.0f - inner_reflection(n_dot_v, through.eta);
   return crossing > 0.0f && crossing < 1.0f;
+}
+
+/// Goes on with a part of the light where a path splits: with the greater one of what the surface
+/// lets pass and what it reflects, or with the lesser. From outside, what passes counts as the
+/// greater one: the path stays on its way through glass.
+LAMBENT_FN NextRay extend_split(bool greater, Transmission through, Reflectance coat,
+                                CoatShares shares, vec3 normal_ws, vec3 geometric_normal_ws,
+                                vec3 to_viewer_ws, float density_scale, vec2 u,
+                                LAMBENT_INOUT(CoatPath) path) {
+  bool crosses = greater;
+  if (through.kind == kLeavesVolume) {
+    float reflected = inner_reflection(dot(normal_ws, to_viewer_ws), through.eta);
+    crosses = greater == (reflected <= 0.5f);
+    path.throughput *= crosses ? 1.0f - reflected : reflected;
+  } else if (!greater) {
+    return extend_by_reflection(coat, shares, normal_ws, geometric_normal_ws, to_viewer_ws,
+                                density_scale, u, path);
+  }
+  return extend_through_glass(through, coat, normal_ws, to_viewer_ws, density_scale,
+                              vec3(u, crosses ? kNeverReflected : kAlwaysReflected), path);
 }
 
 /// Continues a path from its hit on bounce `bounce`: through the surface, or by reflection from its
@@ -330,13 +344,10 @@ LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, CoatShares shar
                          LAMBENT_INOUT(CoatPath) path) {
   vec2 u = next_uniform2(random);
   float n_dot_v = dot(normal_ws, to_viewer_ws);
-  if (path.fork == kForkCrosses) {
-    path.fork = kForksNowhere;
-    if (through.kind == kLeavesVolume) {
-      path.throughput *= 1.0f - inner_reflection(n_dot_v, through.eta);
-    }
-    return extend_through_glass(through, coat, normal_ws, to_viewer_ws, density_scale,
-                                vec3(u, kNeverReflected), path);
+  if (path.fork == kHasForked) {
+    path.fork = kForks;
+    return extend_split(true, through, coat, shares, normal_ws, geometric_normal_ws, to_viewer_ws,
+                        density_scale, u, path);
   }
   bool clear = path.stage == kStageThroughGlass && through.alpha <= kStraightAlpha;
   float least = clear ? choice.least_chance : 0.0f;
@@ -363,22 +374,21 @@ LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, CoatShares shar
                               density_scale, u, path);
 }
 
-/// Splits a path: returns the ray of the reflected branch, and marks `path` as the transmitted one.
-LAMBENT_FN NextRay go_on_reflected(Transmission through, Reflectance coat, CoatShares shares,
-                                   vec3 normal_ws, vec3 geometric_normal_ws, vec3 to_viewer_ws,
-                                   float density_scale, RandomStream random,
-                                   LAMBENT_INOUT(CoatPath) path, LAMBENT_INOUT(CoatPath) branch) {
-  vec2 u = next_uniform2(random);
+/// Splits a path: returns the ray of its branch.
+LAMBENT_FN NextRay split(Transmission through, Reflectance coat, CoatShares shares, vec3 normal_ws,
+                         vec3 geometric_normal_ws, vec3 to_viewer_ws, float density_scale,
+                         RandomStream random, LAMBENT_INOUT(CoatPath) path,
+                         LAMBENT_INOUT(CoatPath) branch) {
   branch = path;
-  branch.fork = kForkReflected;
-  path.fork = kForkCrosses;
-  if (through.kind != kLeavesVolume) {
-    return extend_by_reflection(coat, shares, normal_ws, geometric_normal_ws, to_viewer_ws,
-                                density_scale, u, branch);
-  }
-  branch.throughput *= inner_reflection(dot(normal_ws, to_viewer_ws), through.eta);
-  return extend_through_glass(through, coat, normal_ws, to_viewer_ws, density_scale,
-                              vec3(u, kAlwaysReflected), branch);
+  branch.fork = kForkBranch;
+  path.fork = kHasForked;
+  return extend_split(false, through, coat, shares, normal_ws, geometric_normal_ws, to_viewer_ws,
+                      density_scale, next_uniform2(random), branch);
+}
+
+/// The weight with which a branch competes: how much of the light of its next hit it carries.
+LAMBENT_FN float branch_weight(CoatPath branch) {
+  return branch.pdf > 0.0f ? luminance(branch.throughput) : 0.0f;
 }
 
 LAMBENT_END

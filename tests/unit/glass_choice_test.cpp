@@ -44,7 +44,8 @@ TEST(GlassChoice, OfTwoBouncesAreIndependentAtEachPixel) {
 
 /// A smooth path at the glass that it is to pass next.
 CoatPath path_through_glass() {
-  return {vec3(1.0f), kNoLightSampling, 0.0f, kStageThroughGlass, kForksNowhere, 0.0f};
+  return {vec3(1.0f), kNoLightSampling,      0.0f, kStageThroughGlass, kForksNowhere,
+          0.0f,       begin_reservoir(0.0f), 0u};
 }
 
 /// Sums, over samples of a pixel, of what paths carry on from their first choice that are reflected

@@ -18,7 +18,7 @@ Reflectance coat_of(float alpha) {
 }
 
 CoatPath from_mirror(float alpha) {
-  return {vec3(1.0f), 1.0f, alpha, kStageOwnMirror, kForksNowhere, 0.0f};
+  return {vec3(1.0f), 1.0f, alpha, kStageOwnMirror, kForksNowhere, 0.0f, begin_reservoir(0.0f), 0u};
 }
 
 /// The path that a sharp mirror's ray becomes where a coat reflects it.

@@ -33,7 +33,7 @@ void FramePassesVulkan::transmission() {
         coat_salt(salt, 0u),
         request_->settings.seed,
         static_cast<uint>(request_->settings.reflected_emissive_samples),
-        0u};
+        sample_};
     to.run(kernels_.through_rays, drawn, pixels_);
     if (!samples_behind) return;
     to.barrier();
@@ -74,7 +74,7 @@ void FramePassesVulkan::sample_lights_behind(Recorder& to, const DevicePixels& s
   to.barrier();
 }
 
-/// Appends the reflected branches of paths of a list that split at glass.
+/// Lists one of the branches of each path of a list that splits at glass.
 void FramePassesVulkan::split_paths(const PathBuffers& from, std::uint32_t count,
                                     std::uint32_t bounce, std::uint32_t first_index,
                                     std::uint32_t salt) {
@@ -90,7 +90,7 @@ void FramePassesVulkan::split_paths(const PathBuffers& from, std::uint32_t count
         first_index,
         salt,
         path_seed_,
-        path_step(bounce),
+        bounce,
         static_cast<uint>(request_->settings.reflected_emissive_samples)};
     to.run(kernels_.split_paths, arguments, count);
   });

@@ -89,7 +89,9 @@ bool Glossy::draw_ray(const GlossySettings& settings, const GBuffer& seen, std::
       surface.reflectance.alpha,
       first_stage(surface.reflectance.alpha, !mirrored_.empty()),
       kForksNowhere,
-      emitter_density_scale(settings.world, settings.frame.emissive_samples, surface.position_ws)};
+      emitter_density_scale(settings.world, settings.frame.emissive_samples, surface.position_ws),
+      begin_reservoir(0.0f),
+      0u};
   paths_.next[place] = ray_from(surface, {drawn.direction_ws, 1.0f});
   paths_.cones[place] =
       reflected_cone(pixel_cone(settings, surface, seen.to_viewer_ws[i]), drawn.pdf);

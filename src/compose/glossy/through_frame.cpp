@@ -23,8 +23,15 @@ std::uint64_t Glossy::send_through(const GlossySettings& settings, const GBuffer
     RandomStream random = make_random_stream(first_index + static_cast<uint>(i),
                                              coat_salt(salt_, 0u), ~settings.frame.seed);
     CoatPath& path = paths_.paths[i];
-    path = {vec3(1.0f),         kNoLightSampling, surface.transmission.alpha,
-            kStageThroughGlass, kForksNext,       0.0f};
+    path = {vec3(1.0f),
+            kNoLightSampling,
+            surface.transmission.alpha,
+            kStageThroughGlass,
+            kForks,
+            0.0f,
+            begin_reservoir(branch_number(first_index + static_cast<uint>(i),
+                                          static_cast<uint>(settings.sample), settings.frame.seed)),
+            0u};
     const vec2 u = next_uniform2(random);
     const NextRay next = extend_through_glass(
         surface.transmission, surface.reflectance, surface.normal_ws, seen.to_viewer_ws[i],
@@ -83,7 +90,7 @@ void Glossy::keep_behind(const GlossySettings& settings, const KeptBehind& kept)
   });
 }
 
-/// Stores the reflected branches of paths that split at glass.
+/// Keeps one of the branches of each path that splits at glass.
 void Glossy::split_paths(const GlossySettings& settings, std::uint32_t bounce) {
   const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);
   parallel_chunks(met_.size(), kCostlyPixelsPerTask, [&](std::size_t begin, std::size_t end) {
@@ -91,18 +98,27 @@ void Glossy::split_paths(const GlossySettings& settings, std::uint32_t bounce) {
       if (met_.hit[i] == 0) continue;
       const Surface& surface = met_.surfaces[i];
       const float n_dot_v = dot(surface.normal_ws, met_.to_viewer_ws[i]);
-      if (!forks(paths_.paths[i], surface.transmission, surface.reflectance,
-                 met_.coat_shares[i].coat, n_dot_v, path_step(settings, bounce))) {
+      CoatPath& path = paths_.paths[i];
+      if (!forks(path, surface.transmission, surface.reflectance, met_.coat_shares[i].coat, n_dot_v,
+                 bounce)) {
         continue;
       }
       const RandomStream random = make_random_stream(
           first_index + static_cast<uint>(i), coat_salt(salt_, bounce), ~settings.frame.seed);
-      const NextRay next = go_on_reflected(
-          surface.transmission, surface.reflectance, met_.coat_shares[i], surface.normal_ws,
-          surface.geometric_normal_ws, met_.to_viewer_ws[i],
-          reflected_density_scale(settings, surface), random, paths_.paths[i], forks_.paths[i]);
-      forks_.next[i] = ray_from(surface, next);
-      forks_.cones[i] = reflected_cone(paths_.cones[i], forks_.paths[i].pdf);
+      CoatPath branch;
+      const NextRay next =
+          split(surface.transmission, surface.reflectance, met_.coat_shares[i], surface.normal_ws,
+                surface.geometric_normal_ws, met_.to_viewer_ws[i],
+                reflected_density_scale(settings, surface), random, path, branch);
+      const float weight = branch_weight(branch);
+      if (weight <= 0.0f) continue;
+      float factor = 1.0f;
+      if (keeps_branch(weight, path.branches, factor)) {
+        forks_.paths[i] = branch;
+        forks_.next[i] = ray_from(surface, next);
+        forks_.cones[i] = reflected_cone(paths_.cones[i], branch.pdf);
+      }
+      forks_.paths[i].throughput *= factor;
     }
   });
 }

@@ -25,8 +25,8 @@ void main() {
     if (!needs_further_rays(args.own.at[i], surface.reflectance.alpha)) return;
     u = further_coat_uniforms(pixel, args.sample_index, args.ray, args.seed);
   } else {
-    if (!traces_coat(surface.reflectance, surface.coat_shares.coat, int(pixel.y),
-                     args.sample_index, args.rows)) {
+    if (!traces_coat(surface.reflectance, surface.coat_shares.coat, int(pixel.y), args.sample_index,
+                     args.rows)) {
       return;
     }
     u = coat_uniforms(pixel, args.sample_index, args.rows, args.seed);
@@ -40,9 +40,9 @@ void main() {
   }
   args.coat_rays.at[i].direction_ws = drawn.direction_ws;
   args.coat_rays.at[i].pdf = drawn.pdf;
-  CoatPath path =
-      CoatPath(vec3(1.0f), drawn.pdf, surface.reflectance.alpha,
-               first_stage(surface.reflectance.alpha, keeps_mirrored), kForksNowhere,
-               emitter_density_scale(args.emitter_samples, surface.fluence));
+  CoatPath path = CoatPath(vec3(1.0f), drawn.pdf, surface.reflectance.alpha,
+                           first_stage(surface.reflectance.alpha, keeps_mirrored), kForksNowhere,
+                           emitter_density_scale(args.emitter_samples, surface.fluence),
+                           begin_reservoir(0.0f), 0u);
   append_path(args.list, i, path, surface.cone, point, NextRay(drawn.direction_ws, 1.0f));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a path splits at glass, queues the reflected branch, which is traced after the other paths
-// end.
+// Where a path splits at glass, lets the branch compete for its pixel's place in the list of
+// branches, which are traced after the other paths end.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "glossy/shaders/append_path.glsl"
@@ -18,16 +18,25 @@ void main() {
   LitPointRecord point = args.points.at[k];
   CoatPath path = args.paths.at[k];
   if (!forks(path, surface.transmission, surface.reflectance, surface.coat_shares.coat,
-             dot(point.normal_ws, surface.to_viewer_ws), args.path_step)) {
+             dot(point.normal_ws, surface.to_viewer_ws), args.bounce)) {
     return;
   }
   uint i = args.pixels.at[k];
   RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
   CoatPath branch;
-  NextRay next = go_on_reflected(surface.transmission, surface.reflectance, surface.coat_shares,
-                                 point.normal_ws, point.geometric_normal_ws, surface.to_viewer_ws,
-                                 emitter_density_scale(args.emitter_samples, surface.fluence),
-                                 random, path, branch);
-  args.paths.at[k].fork = path.fork;
-  if (branch.pdf > 0.0f) append_path(args.reflected, i, branch, surface.cone, point, next);
+  NextRay next =
+      split(surface.transmission, surface.reflectance, surface.coat_shares, point.normal_ws,
+            point.geometric_normal_ws, surface.to_viewer_ws,
+            emitter_density_scale(args.emitter_samples, surface.fluence), random, path, branch);
+  float weight = branch_weight(branch);
+  if (weight > 0.0f) {
+    if (path.branches.sum <= 0.0f) path.branch_slot = atomicAdd(args.branches.count.at[0], 1u);
+    uint slot = path.branch_slot;
+    float factor = 1.0f;
+    if (keeps_branch(weight, path.branches, factor)) {
+      write_path(args.branches, slot, i, branch, surface.cone, point, next);
+    }
+    args.branches.paths.at[slot].throughput *= factor;
+  }
+  args.paths.at[k] = path;
 }

@@ -21,12 +21,13 @@ void main() {
   }
   LitPointRecord point = args.points.at[i];
   RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
-  CoatPath path = CoatPath(vec3(1.0f), kNoLightSampling, surface.transmission.alpha,
-                           kStageThroughGlass, kForksNext, 0.0f);
+  CoatPath path = CoatPath(
+      vec3(1.0f), kNoLightSampling, surface.transmission.alpha, kStageThroughGlass, kForks, 0.0f,
+      begin_reservoir(branch_number(args.first_index + i, args.sample_index, args.seed)), 0u);
   vec2 u = next_uniform2(random);
-  NextRay next = extend_through_glass(
-      surface.transmission, surface.reflectance, point.normal_ws, surface.to_viewer_ws,
-      emitter_density_scale(args.emitter_samples, surface.fluence),
-      vec3(u, next_uniform(random)), path);
+  NextRay next = extend_through_glass(surface.transmission, surface.reflectance, point.normal_ws,
+                                      surface.to_viewer_ws,
+                                      emitter_density_scale(args.emitter_samples, surface.fluence),
+                                      vec3(u, next_uniform(random)), path);
   if (path.pdf > 0.0f) append_path(args.list, i, path, surface.cone, point, next);
 }
