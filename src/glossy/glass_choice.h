@@ -9,11 +9,12 @@
 
 LAMBENT_BEGIN
 
-// Least chance with which a path that came through glass alone is reflected by smooth glass that it
-// hits on its first bounce, and with which it crosses it. Of four samples one then shows the
-// reflection, faint as it is: with a chance in proportion, hardly any pixel of a pane would show
-// it, and those all too bright. The chance halves with each bounce: if it stayed, one path in ten
-// would cross the eight surfaces of a wine glass before a bottle, with seven times its light.
+// Least chance with which a branch (kForkBranch) that came through glass alone is reflected by
+// smooth glass that it hits on its first bounce, and with which it crosses it. Of four samples one
+// then shows the reflection, faint as it is: with a chance in proportion, hardly any pixel of a
+// pane would show it, and those all too bright. The chance halves with each bounce: if it stayed,
+// one path in ten would cross the eight surfaces of a wine glass before a bottle, with seven times
+// its light.
 const float kLeastGlassChance = 0.25f;
 // Least number of a pixel's samples for that: of fewer, each would show one of the two alone.
 const uint kLeastStratifiedSamples = 4u;
