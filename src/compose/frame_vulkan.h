@@ -294,7 +294,7 @@ class FramePassesVulkan final : public FramePasses {
   uint ray_light_flags_ = 0;     // kinds of light from rays, see ComposeArguments::has
   const char* path_pass_ = "";   // name of the pass whose paths are traced
   std::uint32_t path_seed_ = 0;  // seed of the paths' random numbers
-  bool splits_paths_ = false;    // paths split, with reflected branches in FrameMemory::forks
+  bool splits_paths_ = false;    // paths split, with branches in FrameMemory::forks
   bool samples_behind_ = false;  // there may be lights behind rough surfaces to sample
   uint keeps_in_mirrors_ = 0;    // mirrored_light_kept() while coats' paths are traced
   bool keeps_behind_ = false;    // light of the first opaque surfaces behind glass is stored apart

@@ -126,7 +126,7 @@ struct FrameMemory {
   // What the band's pixels show in mirrors or behind glass, and how many points gather light
   vulkan::Buffer shown_points, shown_surfaces, shown_queries, shown_points_found;
   PathBuffers path_lists[2];
-  PathBuffers forks;  // reflected branches, traced later
+  PathBuffers forks;  // branches, traced later
   vulkan::Buffer path_hits, path_points, path_surfaces, path_diffuse, path_specular;
   vulkan::Buffer path_queries, path_answers;
   vulkan::Buffer path_drawn, path_drawn_squares, path_drawn_specular, coat_distances;

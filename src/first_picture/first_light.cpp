@@ -62,6 +62,10 @@ constexpr float kMaxSweep = 20.0f;
 constexpr float kMaxSweepAround = 0.6f;
 constexpr int kRaysToSweep = 32;
 
+// A scene in which a camera can stand among things is at least this wide [m]: a smaller one may be
+// a model, or a thing with a hollow.
+constexpr float kMinPlace = 15.0f;
+
 // The sky is missing where at least this share of what the camera sees is empty.
 constexpr float kMinEmptyShare = 0.02f;
 // It is also missing where the camera sees the ground alone, from which at least this share of the
@@ -236,9 +240,13 @@ bool is_outdoors(const World& world) {
   return has_ground(world, subject.bounds);
 }
 
-/// Whether a camera stands among the things of a scene, rather than looking at them from outside.
+/// Whether a camera stands among the things of a large scene, rather than looking at them from
+/// outside.
 bool stands_among(const World& world, const Camera& camera) {
-  return contains(find_subject(world).bounds, glm::vec3(camera.world_from_view[3]));
+  const Bounds bounds = find_subject(world).bounds;
+  const glm::vec3 size = bounds.max - bounds.min;
+  return std::max(size.x, size.z) >= kMinPlace &&
+         contains(bounds, glm::vec3(camera.world_from_view[3]));
 }
 
 /// Whether suns shine out of a void that the camera sees past things on a ground, over a court, or

@@ -81,8 +81,8 @@ void keep_lowest(const World& world, const Subject& subject, Site& site) {
   site.is_ground = lowest;
 }
 
-/// What meshes that are alike have in common: material, and about the number of triangles and the
-/// size.
+/// What meshes that are alike have in common: material, and the powers of two below the number of
+/// triangles and the size.
 using Likeness = std::tuple<int, int, int>;
 
 Likeness likeness(const World& world, std::uint32_t thing) {
@@ -93,13 +93,18 @@ Likeness likeness(const World& world, std::uint32_t thing) {
 
 /// Finds the kinds of a site's things.
 void find_kinds(const World& world, Site& site) {
+  // Instances of one mesh may differ in size; the first one counts
+  std::map<int, Likeness> likeness_of;
+  for (const std::uint32_t i : site.things) {
+    likeness_of.try_emplace(world.scene().instances[i].mesh, likeness(world, i));
+  }
   std::map<Likeness, std::set<int>> alike;
-  const auto mesh_of = [&](std::uint32_t i) { return world.scene().instances[i].mesh; };
-  for (const std::uint32_t i : site.things) alike[likeness(world, i)].insert(mesh_of(i));
+  for (const auto& [mesh, like] : likeness_of) alike[like].insert(mesh);
   std::unordered_set<int> kinds;
   for (const std::uint32_t i : site.things) {
-    const std::set<int>& meshes = alike[likeness(world, i)];
-    site.kind[i] = meshes.size() > kMaxAlike ? *meshes.begin() : mesh_of(i);
+    const int mesh = world.scene().instances[i].mesh;
+    const std::set<int>& meshes = alike[likeness_of[mesh]];
+    site.kind[i] = meshes.size() > kMaxAlike ? *meshes.begin() : mesh;
     kinds.insert(site.kind[i]);
   }
   site.kinds = kinds.size();
@@ -161,7 +166,7 @@ namespace {
 /// A thing of a site.
 struct Thing {
   std::uint32_t instance;
-  int kind;  ///< Its mesh.
+  int kind;  ///< Its mesh: furniture is often alike, which Site::kind merges.
   Bounds box;
   glm::vec3 centre;
 };
@@ -209,16 +214,19 @@ HeartTrial find_most_kinds(std::span<const Thing> things, std::size_t meshes, fl
 }  // namespace
 
 std::optional<Subject> find_heart(const World& world, const Subject& subject, const Site& site) {
-  if (site.kinds < kMinKindsInHeart) return std::nullopt;
+  const std::vector<Instance>& instances = world.scene().instances;
+  std::unordered_set<int> kinds;
+  for (const std::uint32_t i : site.things) kinds.insert(instances[i].mesh);
+  if (kinds.size() < kMinKindsInHeart) return std::nullopt;
   const glm::vec3 size = size_of(subject.bounds);
   const float width = std::max(size.x, size.z);
   std::vector<Thing> things;
   for (const std::uint32_t i : site.things) {
     const Bounds box = world.instance_bounds(static_cast<int>(i));
     if (diagonal(box) > kMaxHeart * width) continue;
-    things.push_back({i, world.scene().instances[i].mesh, box, 0.5f * (box.min + box.max)});
+    things.push_back({i, instances[i].mesh, box, 0.5f * (box.min + box.max)});
   }
-  const auto needed = std::max(kMinHeartKinds * static_cast<float>(site.kinds),
+  const auto needed = std::max(kMinHeartKinds * static_cast<float>(kinds.size()),
                                static_cast<float>(kMinKindsInHeart));
   for (const float share : kHeartRadii) {
     const HeartTrial trial = find_most_kinds(things, world.scene().meshes.size(), share * width);

@@ -15,7 +15,7 @@ struct Site {
   std::vector<bool> is_ground;        ///< For each instance of the scene.
   std::vector<std::uint32_t> things;  ///< Instances of the subject that are on the ground.
   std::vector<bool> is_high;  ///< For each instance of the scene: a thing of at least 0.5 m.
-  /// For each instance of the scene, of a thing: its mesh, or the first of many meshes that are
+  /// For each instance of the scene that is a thing: its mesh, or the first of many meshes that are
   /// alike, as each tree of a wood may be one.
   std::vector<int> kind;
   std::size_t kinds = 0;  ///< Number of different kinds among the things.

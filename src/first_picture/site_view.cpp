@@ -25,7 +25,8 @@ constexpr float kMaxThings = 0.5f;
 constexpr std::size_t kTargets = 64;
 constexpr float kDistances[] = {1.0f, 1.6f, 2.5f, 4.0f};
 constexpr float kDistanceToSmall = 3.0f;
-// Least number of candidates that are tried: where things are few, from several sides.
+// Least number of places that are tried: the fewer things there are, the more sides each is looked
+// at from.
 constexpr std::size_t kLeastTries = 512;
 // Views look up and down by at most this slope.
 constexpr float kMaxSlope = 0.2f;

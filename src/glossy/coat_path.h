@@ -65,15 +65,20 @@ const uint kStageBeyondMirroredCoat = 10u;
 const uint kStageLongWay = 11u;
 
 // Values of CoatPath::fork: whether a path splits where glass both transmits and reflects.
-/// It does not split: at each surface one of the two directions is chosen, see glass_choice().
+/// It does not split: at each surface one of the two directions is chosen, see go_on().
 const uint kForksNowhere = 0u;
-/// It splits at each smooth surface of glass, see forks(): it goes on as the greater part of the
-/// light, and the lesser part is a branch, of which each pixel keeps one, see keeps_branch().
+/// It splits at each smooth surface of glass, see forks(), and goes on as the main part of the
+/// light, see extend_split(). The rest is a branch, of which each pixel keeps one, see
+/// keeps_branch().
 const uint kForks = 1u;
 /// It does what kForks says, and has just split.
 const uint kHasForked = 2u;
 /// It is the branch that the pixel has kept. These paths are traced after all others have ended.
 const uint kForkBranch = 3u;
+
+/// Bounce from which branches count: distances are found on bounce 1, which none has. A branch
+/// counts from here wherever its path split.
+const uint kFirstBounceOfForks = 2u;
 
 /// The state of a path through the scene.
 struct CoatPath {

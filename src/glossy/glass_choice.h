@@ -3,6 +3,7 @@
 #ifndef LAMBENT_GLOSSY_GLASS_CHOICE_H
 #define LAMBENT_GLOSSY_GLASS_CHOICE_H
 
+#include "glossy/coat_path.h"
 #include "scene/coverage.h"
 #include "shared/owen.h"
 #include "shared/reservoir.h"
@@ -40,9 +41,9 @@ LAMBENT_FN bool is_stratified(uint path_step) {
   return (path_step & 256u) != 0u;
 }
 
-/// See kLeastGlassChance. `bounce` is that of the path's hit, from 1.
+/// See kLeastGlassChance. `bounce` is that of the branch's hit, from kFirstBounceOfForks.
 LAMBENT_FN float least_glass_chance(uint bounce) {
-  return kLeastGlassChance * exp2(1.0f - float(bounce));
+  return kLeastGlassChance * exp2(float(kFirstBounceOfForks) - float(bounce));
 }
 
 /// The choice of a pixel's path at a step, see pack_path_step().
@@ -56,10 +57,12 @@ LAMBENT_FN GlassChoice glass_choice(uint pixel, uint path_step, uint seed) {
   return choice;
 }
 
-/// The number by which a pixel's sample draws one of its branches, see CoatPath::branches. Bounces,
-/// which have numbers of their own, count from 1.
+/// The bounce whose numbers draw branches: none of a path, as these count from 1.
+const uint kBounceOfBranches = 0u;
+
+/// The number by which a pixel's sample draws one of its branches, see CoatPath::branches.
 LAMBENT_FN float branch_number(uint pixel, uint sample_index, uint seed) {
-  return glass_choice(pixel, pack_path_step(0u, sample_index, 1u), seed).number;
+  return glass_choice(pixel, pack_path_step(kBounceOfBranches, sample_index, 1u), seed).number;
 }
 
 /// Offers a branch of this weight, above 0, to the draw of its path: whether the pixel keeps it in

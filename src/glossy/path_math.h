@@ -78,9 +78,6 @@ LAMBENT_FN bool reaches_opaque_surface(CoatPath path, Transmission through) {
   return is_first && path.fork != kForkBranch && !is_transmissive(through);
 }
 
-/// Bounce from which reflected branches count: distances are found on bounce 1, which none has.
-const uint kFirstBounceOfForks = 2u;
-
 // Passed in place of the random number that decides on inner reflection, which is below its share.
 const float kAlwaysReflected = -1.0f, kNeverReflected = 1.0f;
 
@@ -315,19 +312,19 @@ LAMBENT_FN bool forks(CoatPath path, Transmission through, Reflectance coat, flo
   return crossing > 0.0f && crossing < 1.0f;
 }
 
-/// Goes on with a part of the light where a path splits: with the greater one of what the surface
-/// lets pass and what it reflects, or with the lesser. From outside, what passes counts as the
-/// greater one: the path stays on its way through glass.
-LAMBENT_FN NextRay extend_split(bool greater, Transmission through, Reflectance coat,
+/// Goes on with a part of the light where a path splits: within a volume, the main way goes on with
+/// the greater one of what the surface lets pass and what it reflects, from outside with what
+/// passes. The branch goes the other way.
+LAMBENT_FN NextRay extend_split(bool is_main, Transmission through, Reflectance coat,
                                 CoatShares shares, vec3 normal_ws, vec3 geometric_normal_ws,
                                 vec3 to_viewer_ws, float density_scale, vec2 u,
                                 LAMBENT_INOUT(CoatPath) path) {
-  bool crosses = greater;
+  bool crosses = is_main;
   if (through.kind == kLeavesVolume) {
     float reflected = inner_reflection(dot(normal_ws, to_viewer_ws), through.eta);
-    crosses = greater == (reflected <= 0.5f);
+    crosses = is_main == (reflected <= 1.0f - reflected);
     path.throughput *= crosses ? 1.0f - reflected : reflected;
-  } else if (!greater) {
+  } else if (!is_main) {
     return extend_by_reflection(coat, shares, normal_ws, geometric_normal_ws, to_viewer_ws,
                                 density_scale, u, path);
   }
@@ -386,9 +383,16 @@ LAMBENT_FN NextRay split(Transmission through, Reflectance coat, CoatShares shar
                       density_scale, next_uniform2(random), branch);
 }
 
-/// The weight with which a branch competes: how much of the light of its next hit it carries.
+/// Least weight with which a branch competes; less is not visible, and its share of a sum might be
+/// no number.
+const float kLeastBranchWeight = 1e-20f;
+
+/// The weight with which a branch competes: how much of the light of its next hit it carries; 0:
+/// not at all.
 LAMBENT_FN float branch_weight(CoatPath branch) {
-  return branch.pdf > 0.0f ? luminance(branch.throughput) : 0.0f;
+  float weight = luminance(branch.throughput);
+  bool competes = branch.pdf > 0.0f && weight >= kLeastBranchWeight && weight < infinity();
+  return competes ? weight : 0.0f;
 }
 
 LAMBENT_END

@@ -42,9 +42,9 @@ TEST(GlassChoice, OfTwoBouncesAreIndependentAtEachPixel) {
   }
 }
 
-/// A smooth path at the glass that it is to pass next.
+/// A smooth branch at the glass that it is to pass next.
 CoatPath path_through_glass() {
-  return {vec3(1.0f), kNoLightSampling,      0.0f, kStageThroughGlass, kForksNowhere,
+  return {vec3(1.0f), kNoLightSampling,      0.0f, kStageThroughGlass, kForkBranch,
           0.0f,       begin_reservoir(0.0f), 0u};
 }
 
@@ -56,9 +56,10 @@ vec2 carried(Transmission through, uint samples) {
   vec2 sums(0.0f);
   for (uint i = 0; i < samples; ++i) {
     CoatPath path = path_through_glass();
-    const NextRay next = go_on(through, glass, {1.0f, 0.0f}, normal, normal, to_viewer, 0.0f, 1,
-                               glass_choice(9, pack_path_step(1, i, samples), kSeed),
-                               make_random_stream(9, i, kSeed), path);
+    const NextRay next =
+        go_on(through, glass, {1.0f, 0.0f}, normal, normal, to_viewer, 0.0f, kFirstBounceOfForks,
+              glass_choice(9, pack_path_step(kFirstBounceOfForks, i, samples), kSeed),
+              make_random_stream(9, i, kSeed), path);
     const bool crosses = next.side < 0.0f || next.direction_ws.z < 0.0f;
     (crosses ? sums.y : sums.x) += path.throughput.x / static_cast<float>(samples);
   }
@@ -84,6 +85,55 @@ TEST(GlassChoice, FourSamplesCarryWhatIsReflectedAndWhatPasses) {
   }
 }
 
+// Of branches with weights, each of which meets other light, one is kept.
+TEST(GlassBranches, OneStandsForAll) {
+  constexpr float kWeights[] = {0.04f, 0.3f, 0.01f}, kLight[] = {5.0f, 1.0f, 200.0f};
+  constexpr int kDraws = 4096;
+  double sum = 0.0, expected = 0.0;
+  for (int k = 0; k < 3; ++k) expected += kWeights[k] * kLight[k];
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Reservoir branches = begin_reservoir((static_cast<float>(draw) + 0.5f) / kDraws);
+    float kept = 0.0f, light = 0.0f;
+    for (int k = 0; k < 3; ++k) {
+      float factor = 1.0f;
+      if (keeps_branch(kWeights[k], branches, factor)) {
+        kept = kWeights[k];
+        light = kLight[k];
+      }
+      kept *= factor;
+    }
+    sum += kept * light;
+  }
+  EXPECT_NEAR(sum / kDraws, expected, 0.01 * expected);
+}
+
+// The main way within a volume is the greater part of the light, and it and its branch are all.
+TEST(GlassBranches, AndTheMainWayAreAllTheLight) {
+  const Reflectance glass = coated_reflectance(vec3(1.0f), 0.0f, 0.0f, 1.0f, vec3(1.0f), 1.5f);
+  Transmission leaves = no_transmission();
+  leaves.tint = vec3(1.0f);
+  leaves.alpha = 0.0f;
+  leaves.kind = kLeavesVolume;
+  leaves.eta = 1.5f;
+  const vec3 normal(0.0f, 0.0f, 1.0f);
+  // Straight on, and just within the critical angle
+  for (const float sine : {0.0f, 0.6666f}) {
+    const vec3 to_viewer(sine, 0.0f, std::sqrt(1.0f - sine * sine));
+    const bool is_reflected = inner_reflection(to_viewer.z, leaves.eta) > 0.5f;
+    EXPECT_EQ(is_reflected, sine > 0.0f);
+    CoatPath path = path_through_glass(), branch;
+    path.fork = kForks;
+    ASSERT_TRUE(forks(path, leaves, glass, 1.0f, to_viewer.z, kFirstBounceOfForks));
+    const RandomStream random = make_random_stream(9, 0, kSeed);
+    split(leaves, glass, {1.0f, 0.0f}, normal, normal, to_viewer, 0.0f, random, path, branch);
+    const NextRay next = go_on(leaves, glass, {1.0f, 0.0f}, normal, normal, to_viewer, 0.0f,
+                               kFirstBounceOfForks, {}, random, path);
+    EXPECT_EQ(next.side > 0.0f, is_reflected);
+    EXPECT_GE(path.throughput.x, 0.5f);
+    EXPECT_NEAR(path.throughput.x + branch.throughput.x, 1.0f, 1e-5f);
+  }
+}
+
 // Rays of one pixel's coat, of which each has a random stream, choose apart.
 TEST(GlassChoice, OfFewSamplesIsEachRaysOwn) {
   const Reflectance glass = coated_reflectance(vec3(1.0f), 0.0f, 0.0f, 1.0f, vec3(1.0f), 1.5f);
@@ -106,14 +156,15 @@ TEST(GlassChoice, OfFewSamplesIsEachRaysOwn) {
 
 // With fewer samples chances are in proportion: none of them may show reflections alone.
 TEST(GlassChoice, OfFewSamplesIsInProportion) {
-  EXPECT_EQ(glass_choice(1, pack_path_step(1, 0, 2), kSeed).least_chance, 0.0f);
-  EXPECT_EQ(glass_choice(1, pack_path_step(1, 0, 4), kSeed).least_chance, kLeastGlassChance);
+  EXPECT_EQ(glass_choice(1, pack_path_step(kFirstBounceOfForks, 0, 2), kSeed).least_chance, 0.0f);
+  EXPECT_EQ(glass_choice(1, pack_path_step(kFirstBounceOfForks, 0, 4), kSeed).least_chance,
+            kLeastGlassChance);
 }
 
 // Each choice in favour of faint reflections makes the paths that cross rarer and heavier.
 TEST(GlassChoice, PathsThroughManySurfacesWeighLessThanTwice) {
   float weight = 1.0f;
-  for (uint bounce = 1; bounce <= kMaxGlassVertices; ++bounce) {
+  for (uint bounce = kFirstBounceOfForks; bounce <= kMaxGlassVertices; ++bounce) {
     const float least = glass_choice(1, pack_path_step(bounce, 0, 4), kSeed).least_chance;
     EXPECT_GT(least, 0.0f);
     weight /= 1.0f - least;

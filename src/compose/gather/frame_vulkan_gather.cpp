@@ -215,6 +215,7 @@ void FramePassesVulkan::gather() {
 
 ShownGatherRecord FramePassesVulkan::room_to_gather(std::size_t pixels,
                                                     ShownGatherBuffers& buffers) const {
+  if (pixels == 0) return {};
   const auto room = [&](std::size_t bytes, Buffer& buffer) {
     buffer.reserve(device_, pixels * bytes, "light that shown surfaces gather");
     return buffer.address();

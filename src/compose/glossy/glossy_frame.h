@@ -87,7 +87,7 @@ class Glossy {
   // One entry for each pixel of the rows around the band
   int first_row_ = 0;
   std::vector<CoatRay> rays_;
-  Paths paths_, forks_;  // the paths being traced, and the reflected branches to be traced later
+  Paths paths_, forks_;  // the paths being traced, and the branches to be traced later
   std::vector<MirroredCoat> mirrored_;     // empty where these are not kept
   std::vector<ShownBase> mirrored_bases_;  // empty where these are not kept
   std::vector<ShownBase> bases_behind_;    // TransmittedLight::bases

@@ -16,10 +16,12 @@ void empty_shown_gather(ShownGatherRecord kept, uint pixel) {
 void keep_shown_gather(ShownGatherRecord kept, ShownBase base, vec3 weight, vec3 looked_up,
                        uint pixel) {
   kept.geometric_normals_ws.at[pixel] = base.geometric_normal_ws;
-  kept.albedo.at[pixel] = weight * base.indirect_albedo;
   if (base.indirect_albedo == vec3(0.0f)) {
+    // The weight of what is not there may be no number
+    kept.albedo.at[pixel] = vec3(0.0f);
     empty_shown_gather(kept, pixel);
-  } else {
-    kept.looked_up.at[pixel] = base.gi_share * looked_up;
+    return;
   }
+  kept.albedo.at[pixel] = weight * base.indirect_albedo;
+  kept.looked_up.at[pixel] = base.gi_share * looked_up;
 }
