@@ -9,6 +9,7 @@
 #include "first_picture/daylight.h"
 #include "first_picture/lamps.h"
 #include "first_picture/seen.h"
+#include "first_picture/site.h"
 #include "first_picture/sky_dome.h"
 #include "first_picture/studio.h"
 #include "first_picture/subject.h"
@@ -61,10 +62,6 @@ constexpr float kMaxSweep = 20.0f;
 // share: half, where it bends around the subject.
 constexpr float kMaxSweepAround = 0.6f;
 constexpr int kRaysToSweep = 32;
-
-// A scene in which a camera can stand among things is at least this wide [m]: a smaller one may be
-// a model, or a thing with a hollow.
-constexpr float kMinPlace = 15.0f;
 
 // The sky is missing where at least this share of what the camera sees is empty.
 constexpr float kMinEmptyShare = 0.02f;
@@ -240,12 +237,12 @@ bool is_outdoors(const World& world) {
   return has_ground(world, subject.bounds);
 }
 
-/// Whether a camera stands among the things of a large scene, rather than looking at them from
-/// outside.
+/// Whether a camera stands among the things of a scene as large as a site, rather than looking at
+/// them from outside, or into a hollow thing.
 bool stands_among(const World& world, const Camera& camera) {
   const Bounds bounds = find_subject(world).bounds;
   const glm::vec3 size = bounds.max - bounds.min;
-  return std::max(size.x, size.z) >= kMinPlace &&
+  return std::max(size.x, size.z) >= kMinSiteWidth &&
          contains(bounds, glm::vec3(camera.world_from_view[3]));
 }
 

@@ -18,9 +18,8 @@ namespace lambent {
 namespace {
 
 // A ground reaches under at least the first share of the width and of the depth of what stands on
-// it, is at most the second share of its width high, and it and what stands on it are this wide
-// [m]: a smaller scene is a model of a place.
-constexpr float kMinGroundSpan = 0.7f, kMaxGroundHeight = 0.4f, kMinSiteWidth = 15.0f;
+// it, and is at most the second share of its width high.
+constexpr float kMinGroundSpan = 0.7f, kMaxGroundHeight = 0.4f;
 // What stands on a ground is at least this high [m]: paths, ponds and kerbs belong to the ground.
 constexpr float kMinThingHeight = 0.5f;
 // Of more meshes that are alike than this, none is a kind of its own: a wood or a meadow, rather
@@ -31,8 +30,6 @@ constexpr std::size_t kMaxAlike = 8;
 // meets a ground that is a sheet only once.
 constexpr int kRaysAlongSite = 8;
 constexpr float kMinGroundShare = 0.6f;
-// Rays go on this share of their distance beyond a hit.
-constexpr float kPastGround = 1e-4f;
 
 // The heart of a site holds most kinds of its things, at least this share, and so many that they
 // are more than a tree and a bench, within one of these radii, as shares of the site's width.
@@ -143,12 +140,8 @@ std::optional<Site> find_site(const World& world, const Subject& subject) {
 }
 
 bool is_sheet(const World& world, const Subject& subject, const Site& site) {
-  std::vector<Ray> rays = rays_from_below(subject);
-  const std::vector<Hit> first = trace(world, rays);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (!first[i].missed()) rays[i].t_min = first[i].distance * (1.0f + kPastGround);
-  }
-  const std::vector<Hit> second = trace(world, rays);
+  const std::vector<Ray> rays = rays_from_below(subject);
+  const std::vector<Hit> first = trace(world, rays), second = trace_behind(world, rays, first);
   const auto is_ground = [&](const Hit& hit) {
     return !hit.missed() && site.is_ground[hit.instance];
   };

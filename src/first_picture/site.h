@@ -10,6 +10,10 @@
 
 namespace lambent {
 
+// Grounds and what stands on them are at least this wide [m]: a smaller scene is a model of a
+// place.
+constexpr float kMinSiteWidth = 15.0f;
+
 /// A ground of a human scale with things on it.
 struct Site {
   std::vector<bool> is_ground;        ///< For each instance of the scene.

@@ -167,6 +167,22 @@ LAMBENT_FN float seen_distance(float mirrored_alpha, float seen_distance) {
 /// finds the emitters that they meet.
 const float kNoLightSampling = 1e30f;
 
+/// A path at its start, which does not split.
+LAMBENT_FN CoatPath begin_path(float pdf, float alpha, uint stage, float density_scale) {
+  CoatPath path = {
+      vec3(1.0f), pdf, alpha, stage, kForksNowhere, density_scale, begin_reservoir(0.0f), 0u};
+  return path;
+}
+
+/// A path at its start through glass of this GGX width, which splits there; `u`: the uniform number
+/// that draws its branch.
+LAMBENT_FN CoatPath begin_path_through_glass(float alpha, float u) {
+  CoatPath path = begin_path(kNoLightSampling, alpha, kStageThroughGlass, 0.0f);
+  path.fork = kForks;
+  path.branches = begin_reservoir(u);
+  return path;
+}
+
 /// Least distance to hits [m], so that its reciprocal is finite.
 const float kLeastSeenDistance = 1e-4f;
 

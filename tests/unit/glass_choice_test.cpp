@@ -44,8 +44,9 @@ TEST(GlassChoice, OfTwoBouncesAreIndependentAtEachPixel) {
 
 /// A smooth branch at the glass that it is to pass next.
 CoatPath path_through_glass() {
-  return {vec3(1.0f), kNoLightSampling,      0.0f, kStageThroughGlass, kForkBranch,
-          0.0f,       begin_reservoir(0.0f), 0u};
+  CoatPath path = begin_path_through_glass(0.0f, 0.0f);
+  path.fork = kForkBranch;
+  return path;
 }
 
 /// Sums, over samples of a pixel, of what paths carry on from their first choice that are reflected

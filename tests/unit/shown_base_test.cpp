@@ -18,7 +18,7 @@ Reflectance coat_of(float alpha) {
 }
 
 CoatPath from_mirror(float alpha) {
-  return {vec3(1.0f), 1.0f, alpha, kStageOwnMirror, kForksNowhere, 0.0f, begin_reservoir(0.0f), 0u};
+  return begin_path(1.0f, alpha, kStageOwnMirror, 0.0f);
 }
 
 /// The path that a sharp mirror's ray becomes where a coat reflects it.

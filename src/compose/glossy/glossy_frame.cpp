@@ -83,15 +83,10 @@ bool Glossy::draw_ray(const GlossySettings& settings, const GBuffer& seen, std::
   }
   ray.direction_ws = drawn.direction_ws;
   ray.pdf = drawn.pdf;
-  paths_.paths[place] = {
-      vec3(1.0f),
-      drawn.pdf,
-      surface.reflectance.alpha,
+  paths_.paths[place] = begin_path(
+      drawn.pdf, surface.reflectance.alpha,
       first_stage(surface.reflectance.alpha, !mirrored_.empty()),
-      kForksNowhere,
-      emitter_density_scale(settings.world, settings.frame.emissive_samples, surface.position_ws),
-      begin_reservoir(0.0f),
-      0u};
+      emitter_density_scale(settings.world, settings.frame.emissive_samples, surface.position_ws));
   paths_.next[place] = ray_from(surface, {drawn.direction_ws, 1.0f});
   paths_.cones[place] =
       reflected_cone(pixel_cone(settings, surface, seen.to_viewer_ws[i]), drawn.pdf);

@@ -35,8 +35,7 @@ struct Paths {
 
   /// Makes room for this many pixels, none of which has a path yet.
   void start(std::size_t pixels) {
-    paths.assign(pixels, {vec3(1.0f), 0.0f, 0.0f, kStageOther, kForksNowhere, 0.0f,
-                          begin_reservoir(0.0f), 0u});
+    paths.assign(pixels, begin_path(0.0f, 0.0f, kStageOther, 0.0f));
     next.resize(pixels);
     cones.resize(pixels);
   }

@@ -23,15 +23,10 @@ std::uint64_t Glossy::send_through(const GlossySettings& settings, const GBuffer
     RandomStream random = make_random_stream(first_index + static_cast<uint>(i),
                                              coat_salt(salt_, 0u), ~settings.frame.seed);
     CoatPath& path = paths_.paths[i];
-    path = {vec3(1.0f),
-            kNoLightSampling,
-            surface.transmission.alpha,
-            kStageThroughGlass,
-            kForks,
-            0.0f,
-            begin_reservoir(branch_number(first_index + static_cast<uint>(i),
-                                          static_cast<uint>(settings.sample), settings.frame.seed)),
-            0u};
+    path = begin_path_through_glass(
+        surface.transmission.alpha,
+        branch_number(first_index + static_cast<uint>(i), static_cast<uint>(settings.sample),
+                      settings.frame.seed));
     const vec2 u = next_uniform2(random);
     const NextRay next = extend_through_glass(
         surface.transmission, surface.reflectance, surface.normal_ws, seen.to_viewer_ws[i],

@@ -40,9 +40,8 @@ void main() {
   }
   args.coat_rays.at[i].direction_ws = drawn.direction_ws;
   args.coat_rays.at[i].pdf = drawn.pdf;
-  CoatPath path = CoatPath(vec3(1.0f), drawn.pdf, surface.reflectance.alpha,
-                           first_stage(surface.reflectance.alpha, keeps_mirrored), kForksNowhere,
-                           emitter_density_scale(args.emitter_samples, surface.fluence),
-                           begin_reservoir(0.0f), 0u);
+  CoatPath path = begin_path(drawn.pdf, surface.reflectance.alpha,
+                             first_stage(surface.reflectance.alpha, keeps_mirrored),
+                             emitter_density_scale(args.emitter_samples, surface.fluence));
   append_path(args.list, i, path, surface.cone, point, NextRay(drawn.direction_ws, 1.0f));
 }

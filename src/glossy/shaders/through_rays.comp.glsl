@@ -21,9 +21,9 @@ void main() {
   }
   LitPointRecord point = args.points.at[i];
   RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
-  CoatPath path = CoatPath(
-      vec3(1.0f), kNoLightSampling, surface.transmission.alpha, kStageThroughGlass, kForks, 0.0f,
-      begin_reservoir(branch_number(args.first_index + i, args.sample_index, args.seed)), 0u);
+  CoatPath path =
+      begin_path_through_glass(surface.transmission.alpha,
+                               branch_number(args.first_index + i, args.sample_index, args.seed));
   vec2 u = next_uniform2(random);
   NextRay next = extend_through_glass(surface.transmission, surface.reflectance, point.normal_ws,
                                       surface.to_viewer_ws,
