@@ -172,8 +172,10 @@ TEST(LightGeometry, ChangesAsItDidOnTheOtherSide) {
   FieldGeometry now = before;
   now.volumes[0].grid.scroll = {0, 1, 1};
   now.volumes[0].grid.origin_ws.x += 0.5f;
-  const std::vector<int> probes = {0, 1, 9, 30, 31};
-  for (const int probe : probes) {
+  UpdatedProbes updated{{0, 1, 9, 30, 31}, {}};
+  for (const int probe : updated.probes) {
+    const std::span<const CodedMoments> tile = before.tile_of(probe);
+    updated.tiles_before.insert(updated.tiles_before.end(), tile.begin(), tile.end());
     now.states[probe] = ProbeState::sleeping;
     now.offsets[probe] = encode_probe_offset({0.2f, -0.4f, 0.0f});
     for (std::size_t t = 0; t < now.tile(); t += 2) {
@@ -183,10 +185,10 @@ TEST(LightGeometry, ChangesAsItDidOnTheOtherSide) {
   for (const bool corrected : {false, true}) {
     if (corrected) now.corrections.pop_back();
     FieldGeometry client = before;
-    const std::vector<std::byte> body = write_changes(before, now, probes, corrected);
+    const std::vector<std::byte> body = write_changes(updated, now, corrected);
     const Expected<GeometryChanges> read = read_changes(body, kPlenty, client);
     ASSERT_TRUE(read) << read.error().message();
-    EXPECT_EQ(read->probes, probes);
+    EXPECT_EQ(read->probes, updated.probes);
     EXPECT_EQ(read->corrections, corrected);
     EXPECT_EQ(client.corrections.size(), now.corrections.size());
     if (corrected) client.corrections = now.corrections;  // which come apart
@@ -279,11 +281,10 @@ TEST(LightGeometry, CountsCorrectionsThatAreStillToComeAsMemory) {
   std::size_t enough = 0;
   while (!taken(enough)) enough += 1000;
   FieldGeometry client = geometry;
-  const FieldGeometry before = geometry;
   geometry.corrections.resize(32 * geometry.offsets.size());
   EXPECT_FALSE(taken(enough));
   EXPECT_TRUE(taken(kPlenty));
-  const std::vector<std::byte> change = write_changes(before, geometry, {}, true);
+  const std::vector<std::byte> change = write_changes({}, geometry, true);
   EXPECT_FALSE(read_changes(change, enough, client));
   EXPECT_TRUE(client.corrections.empty());
   EXPECT_TRUE(read_changes(change, kPlenty, client));

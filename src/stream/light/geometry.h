@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "field/probes/probe_grid.h"
@@ -49,6 +50,8 @@ glm::vec2 decode_moments(const CodedMoments& moments, float longest);
 
 /// The geometry of a field.
 struct FieldGeometry {
+  static constexpr std::size_t kMaxDistanceTexels = 32;  // along an edge of a tile
+
   int irradiance_texels = 4;
   int distance_texels = 14;
   std::vector<Volume> volumes;  ///< Their grids' `first` counts the probes of all volumes.
@@ -60,6 +63,9 @@ struct FieldGeometry {
 
   int probes() const { return static_cast<int>(offsets.size()); }
   std::size_t tile() const { return static_cast<std::size_t>(distance_texels) * distance_texels; }
+  std::span<const CodedMoments> tile_of(int probe) const {
+    return std::span(moments).subspan(probe * tile(), tile());
+  }
   const ProbeGrid& grid_of(int probe) const;
   /// Whether another one has as many probes, in tiles and volumes of the same kind, so that the
   /// changes between both can be coded.
@@ -79,11 +85,17 @@ std::vector<CodedCorrectionBlock> corrections_of(const IrradianceField& field);
 /// The layout of a geometry's light, for its coding.
 LightLayout layout_of(const FieldGeometry& geometry);
 
+/// Probes of a geometry that were updated.
+struct UpdatedProbes {
+  std::vector<int> probes;                 ///< In ascending order.
+  std::vector<CodedMoments> tiles_before;  ///< Their former tiles, one after the other.
+};
+
 /// Updates `sent` from a field of the same kind: its grids, the probes that moved or came into or
 /// out of solid matter, and, of every `stride`-th other probe, from number `first` on, those whose
 /// distances have a root mean square error above `threshold` [smallest spacings]. Does not change
-/// corrections. Returns the updated probes, in ascending order.
-std::vector<int> follow(const IrradianceField& field, float threshold, int first, int stride,
-                        FieldGeometry& sent);
+/// corrections.
+UpdatedProbes follow(const IrradianceField& field, float threshold, int first, int stride,
+                     FieldGeometry& sent);
 
 }  // namespace lambent::stream

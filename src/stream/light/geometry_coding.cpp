@@ -177,7 +177,7 @@ Expected<Counts> read_kind(ByteReader& in, FieldGeometry& geometry) {
   const Counts counts = {in.u32(), in.u32()};
   geometry.corrections_number = in.u64();
   if (irradiance_texels < 2 || irradiance_texels > 16 || irradiance_texels % 2 != 0 ||
-      distance_texels < 4 || distance_texels > 32) {
+      distance_texels < 4 || distance_texels > FieldGeometry::kMaxDistanceTexels) {
     return bad_stream("geometry", "has tiles of a size that no field has");
   }
   if (counts.volumes < 1 || counts.volumes > kMaxVolumes) {
@@ -234,6 +234,19 @@ bool is_of(const Head& head, const FieldGeometry& geometry) {
          geometry.corrections_number == head.geometry.corrections_number &&
          std::equal(geometry.volumes.begin(), geometry.volumes.end(), head.geometry.volumes.begin(),
                     [](const Volume& x, const Volume& y) { return same_place(x.grid, y.grid); });
+}
+
+/// A geometry that has these probes alone, and neither volumes nor corrections.
+FieldGeometry records_of(std::span<const int> probes, const FieldGeometry& geometry) {
+  FieldGeometry records;
+  records.distance_texels = geometry.distance_texels;
+  for (const int probe : probes) {
+    records.offsets.push_back(geometry.offsets[probe]);
+    records.states.push_back(geometry.states[probe]);
+    const std::span<const CodedMoments> tile = geometry.tile_of(probe);
+    records.moments.insert(records.moments.end(), tile.begin(), tile.end());
+  }
+  return records;
 }
 
 }  // namespace
@@ -320,25 +333,25 @@ Expected<void> read_geometry(std::span<const std::byte> body, std::size_t most_b
   return {};
 }
 
-std::vector<std::byte> write_changes(const FieldGeometry& before, const FieldGeometry& now,
-                                     std::span<const int> probes, bool other_corrections) {
+std::vector<std::byte> write_changes(const UpdatedProbes& updated, const FieldGeometry& now,
+                                     bool other_corrections) {
   ByteWriter out;
   out.u32(other_corrections ? static_cast<std::uint32_t>(now.corrections.size())
                             : kSameCorrections);
   for (const Volume& volume : now.volumes) write_place(volume.grid, out);
   RangeEncoder coder;
   ProbeModels models;
-  FieldGeometry copy = now;
-  std::size_t next = 0;
+  FieldGeometry records = records_of(updated.probes, now);
+  const std::span tiles_before(updated.tiles_before);
+  int next = 0;
   bool last = false;
   for (int probe = 0; probe < now.probes(); ++probe) {
-    const bool changed = next < probes.size() && probes[next] == probe;
+    const bool changed = next < records.probes() && updated.probes[next] == probe;
     code_bit(coder, models.changed[last ? 1 : 0], changed);
     last = changed;
     if (!changed) continue;
+    code_probe(coder, models, next, tiles_before.subspan(next * now.tile(), now.tile()), records);
     ++next;
-    code_probe(coder, models, probe,
-               std::span(before.moments).subspan(probe * before.tile(), before.tile()), copy);
   }
   out.raw(coder.finish());
   return out.take();
@@ -373,8 +386,7 @@ Expected<GeometryChanges> read_changes(std::span<const std::byte> body, std::siz
     if (coder.overrun()) return bad_stream("geometry", "ends before its last probe");
     if (!last) continue;
     changes.probes.push_back(probe);
-    if (!code_probe(coder, models, probe,
-                    std::span(geometry.moments).subspan(probe * now.tile(), now.tile()), now)) {
+    if (!code_probe(coder, models, probe, geometry.tile_of(probe), now)) {
       return bad_stream("geometry", "holds a senseless record of probe " + std::to_string(probe));
     }
   }

@@ -47,10 +47,10 @@ struct PartialGeometry {
 Expected<void> read_geometry(std::span<const std::byte> body, std::size_t most_bytes,
                              PartialGeometry& geometry);
 
-/// Writes the changes from `before` to `now`: the grids, some probes, in ascending order, and
-/// whether there are other corrections, which follow in messages of their own.
-std::vector<std::byte> write_changes(const FieldGeometry& before, const FieldGeometry& now,
-                                     std::span<const int> probes, bool other_corrections);
+/// Writes the changes that led to the geometry `now`: the grids, some probes, and whether there are
+/// other corrections, which follow in messages of their own.
+std::vector<std::byte> write_changes(const UpdatedProbes& updated, const FieldGeometry& now,
+                                     bool other_corrections);
 
 /// The contents of a message of write_changes.
 struct GeometryChanges {

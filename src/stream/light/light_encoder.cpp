@@ -115,26 +115,25 @@ struct LightEncoder::State {
 
 std::optional<LightMessage> LightEncoder::State::follow_geometry(const IrradianceField& field,
                                                                  std::uint64_t update) {
-  const FieldGeometry before = geometry;
   const FieldGeometry kind = kind_of(field);
   const bool moved =
       !std::equal(kind.volumes.begin(), kind.volumes.end(), geometry.volumes.begin(),
                   [](const Volume& a, const Volume& b) { return same_place(a.grid, b.grid); });
   // Compare all probes after scrolling, since recycled ones have distances of other places
   const int turns = moved ? 1 : kDistanceTurns;
-  const std::vector<int> probes =
+  const UpdatedProbes updated =
       follow(field, settings.distance_threshold, static_cast<int>(update % turns), turns, geometry);
   const bool corrects = field.updates() >= next_corrections;
   if (corrects) take_corrections(field);
-  if (probes.empty() && !moved && !corrects) return std::nullopt;
+  if (updated.probes.empty() && !moved && !corrects) return std::nullopt;
   const std::uint64_t base = geometry_version;
   geometry_version = geometry_number(settings.stream, update);
   if (corrects) geometry.corrections_number = geometry_version;
-  forget_sections(probes, sections);
+  forget_sections(updated.probes, sections);
   layout = layout_of(geometry);
   clear_unlit(layout, light);
   return make_message(header(LightMessageKind::geometry, update),
-                      geometry_body(base, write_changes(before, geometry, probes, corrects)));
+                      geometry_body(base, write_changes(updated, geometry, corrects)));
 }
 
 LightMessage LightEncoder::State::encode_key(const FieldLight& field, std::uint64_t update,

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/simd.h"
+
 namespace lambent::stream {
 namespace {
 
@@ -16,6 +18,16 @@ constexpr std::array<std::array<float, kChannels>, kChannels> kAxes = {
     {{kThird, kThird, kThird}, {kHalf, 0.0f, -kHalf}, {kSixth, -2.0f * kSixth, kSixth}}};
 
 using ChannelTexels = std::array<std::array<float, kMaxTileTexels>, kChannels>;
+
+/// The scalar products of a tile with all functions of a basis. `values` holds those of all
+/// functions at a texel, one texel after the other.
+LAMBENT_SIMD_CLONES void project(const float* tile, const float* values, std::size_t texels,
+                                 float* coefficients) {
+  std::fill_n(coefficients, texels, 0.0f);
+  for (std::size_t t = 0; t < texels; ++t) {
+    for (std::size_t i = 0; i < texels; ++i) coefficients[i] += tile[t] * values[t * texels + i];
+  }
+}
 
 /// Adds `factor` times each of the values to the sums.
 void add_scaled(float factor, const float* values, float* sums, std::size_t count) {
@@ -37,11 +49,8 @@ void LightSignal::coefficients_of(std::span<const glm::vec4> tile,
       roots[a][t] = kAxes[a][0] * root[0] + kAxes[a][1] * root[1] + kAxes[a][2] * root[2];
     }
   }
-  std::fill(coefficients.begin(), coefficients.end(), 0.0f);
   for (int c = 0; c < kChannels; ++c) {
-    for (std::size_t t = 0; t < texels; ++t) {
-      add_scaled(roots[c][t], basis_.texel(t), &coefficients[c * texels], texels);
-    }
+    project(roots[c].data(), basis_.texel(0), texels, &coefficients[c * texels]);
   }
 }
 
