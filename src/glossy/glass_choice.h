@@ -36,7 +36,7 @@ LAMBENT_FN uint pack_path_step(uint bounce, uint sample_index, uint samples) {
 LAMBENT_FN uint bounce_of_step(uint path_step) {
   return path_step & 255u;
 }
-/// Whether the pixel has enough samples for kLeastGlassChance.
+/// Whether the pixel has kLeastStratifiedSamples.
 LAMBENT_FN bool is_stratified(uint path_step) {
   return (path_step & 256u) != 0u;
 }

@@ -112,7 +112,7 @@ struct SplitPathsArguments {
   uint first_index;
   uint salt;
   uint seed;
-  uint bounce;
+  uint path_step;        ///< See pack_path_step().
   uint emitter_samples;  ///< Of the direct light of hits.
 };
 

@@ -371,13 +371,17 @@ LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, CoatShares shar
                               density_scale, u, path);
 }
 
-/// Splits a path: returns the ray of its branch.
+/// Splits a path at a step, see pack_path_step(): returns the ray of its branch.
+///
+/// Of a pixel's few samples each keeps one branch in place of many, which is a dot: this light is
+/// filtered as that of long ways is. Of more samples, neighbours' light would only blur it.
 LAMBENT_FN NextRay split(Transmission through, Reflectance coat, CoatShares shares, vec3 normal_ws,
                          vec3 geometric_normal_ws, vec3 to_viewer_ws, float density_scale,
-                         RandomStream random, LAMBENT_INOUT(CoatPath) path,
+                         uint path_step, RandomStream random, LAMBENT_INOUT(CoatPath) path,
                          LAMBENT_INOUT(CoatPath) branch) {
   branch = path;
   branch.fork = kForkBranch;
+  if (branch.stage == kStageThroughGlass && !is_stratified(path_step)) branch.stage = kStageLongWay;
   path.fork = kHasForked;
   return extend_split(false, through, coat, shares, normal_ws, geometric_normal_ws, to_viewer_ws,
                       density_scale, next_uniform2(random), branch);

@@ -118,7 +118,7 @@ TEST(GlassBranches, AndTheMainWayAreAllTheLight) {
   leaves.eta = 1.5f;
   const vec3 normal(0.0f, 0.0f, 1.0f);
   // Straight on, and just within the critical angle
-  for (const float sine : {0.0f, 0.6666f}) {
+  for (const auto& [sine, samples] : {std::pair(0.0f, 1u), std::pair(0.6666f, 4u)}) {
     const vec3 to_viewer(sine, 0.0f, std::sqrt(1.0f - sine * sine));
     const bool is_reflected = inner_reflection(to_viewer.z, leaves.eta) > 0.5f;
     EXPECT_EQ(is_reflected, sine > 0.0f);
@@ -126,7 +126,9 @@ TEST(GlassBranches, AndTheMainWayAreAllTheLight) {
     path.fork = kForks;
     ASSERT_TRUE(forks(path, leaves, glass, 1.0f, to_viewer.z, kFirstBounceOfForks));
     const RandomStream random = make_random_stream(9, 0, kSeed);
-    split(leaves, glass, {1.0f, 0.0f}, normal, normal, to_viewer, 0.0f, random, path, branch);
+    split(leaves, glass, {1.0f, 0.0f}, normal, normal, to_viewer, 0.0f,
+          pack_path_step(kFirstBounceOfForks, 0u, samples), random, path, branch);
+    EXPECT_EQ(branch.stage, samples == 1u ? kStageLongWay : kStageThroughGlass);
     const NextRay next = go_on(leaves, glass, {1.0f, 0.0f}, normal, normal, to_viewer, 0.0f,
                                kFirstBounceOfForks, {}, random, path);
     EXPECT_EQ(next.side > 0.0f, is_reflected);

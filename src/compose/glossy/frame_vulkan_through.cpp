@@ -90,7 +90,7 @@ void FramePassesVulkan::split_paths(const PathBuffers& from, std::uint32_t count
         first_index,
         salt,
         path_seed_,
-        bounce,
+        path_step(bounce),
         static_cast<uint>(request_->settings.reflected_emissive_samples)};
     to.run(kernels_.split_paths, arguments, count);
   });

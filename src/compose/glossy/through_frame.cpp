@@ -88,6 +88,7 @@ void Glossy::keep_behind(const GlossySettings& settings, const KeptBehind& kept)
 /// Keeps one of the branches of each path that splits at glass.
 void Glossy::split_paths(const GlossySettings& settings, std::uint32_t bounce) {
   const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);
+  const uint step = path_step(settings, bounce);
   parallel_chunks(met_.size(), kCostlyPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (met_.hit[i] == 0) continue;
@@ -104,7 +105,7 @@ void Glossy::split_paths(const GlossySettings& settings, std::uint32_t bounce) {
       const NextRay next =
           split(surface.transmission, surface.reflectance, met_.coat_shares[i], surface.normal_ws,
                 surface.geometric_normal_ws, met_.to_viewer_ws[i],
-                reflected_density_scale(settings, surface), random, path, branch);
+                reflected_density_scale(settings, surface), step, random, path, branch);
       const float weight = branch_weight(branch);
       if (weight <= 0.0f) continue;
       float factor = 1.0f;

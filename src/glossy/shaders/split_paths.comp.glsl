@@ -18,16 +18,16 @@ void main() {
   LitPointRecord point = args.points.at[k];
   CoatPath path = args.paths.at[k];
   if (!forks(path, surface.transmission, surface.reflectance, surface.coat_shares.coat,
-             dot(point.normal_ws, surface.to_viewer_ws), args.bounce)) {
+             dot(point.normal_ws, surface.to_viewer_ws), bounce_of_step(args.path_step))) {
     return;
   }
   uint i = args.pixels.at[k];
   RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
   CoatPath branch;
-  NextRay next =
-      split(surface.transmission, surface.reflectance, surface.coat_shares, point.normal_ws,
-            point.geometric_normal_ws, surface.to_viewer_ws,
-            emitter_density_scale(args.emitter_samples, surface.fluence), random, path, branch);
+  NextRay next = split(surface.transmission, surface.reflectance, surface.coat_shares,
+                       point.normal_ws, point.geometric_normal_ws, surface.to_viewer_ws,
+                       emitter_density_scale(args.emitter_samples, surface.fluence), args.path_step,
+                       random, path, branch);
   float weight = branch_weight(branch);
   if (weight > 0.0f) {
     if (path.branches.sum <= 0.0f) path.branch_slot = atomicAdd(args.branches.count.at[0], 1u);
