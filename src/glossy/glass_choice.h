@@ -5,6 +5,7 @@
 
 #include "glossy/coat_path.h"
 #include "scene/coverage.h"
+#include "shared/color.h"
 #include "shared/owen.h"
 #include "shared/reservoir.h"
 
@@ -63,6 +64,18 @@ const uint kBounceOfBranches = 0u;
 /// The number by which a pixel's sample draws one of its branches, see CoatPath::branches.
 LAMBENT_FN float branch_number(uint pixel, uint sample_index, uint seed) {
   return glass_choice(pixel, pack_path_step(kBounceOfBranches, sample_index, 1u), seed).number;
+}
+
+/// Least weight with which a branch competes; less is not visible, and its share of a sum might be
+/// no number.
+const float kLeastBranchWeight = 1e-20f;
+
+/// The weight with which a branch competes: how much of the light of its next hit it carries; 0:
+/// not at all.
+LAMBENT_FN float branch_weight(CoatPath branch) {
+  float weight = luminance(branch.throughput);
+  bool competes = branch.pdf > 0.0f && weight >= kLeastBranchWeight && weight < infinity();
+  return competes ? weight : 0.0f;
 }
 
 /// Offers a branch of this weight, above 0, to the draw of its path: whether the pixel keeps it in

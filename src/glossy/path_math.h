@@ -387,17 +387,5 @@ LAMBENT_FN NextRay split(Transmission through, Reflectance coat, CoatShares shar
                       density_scale, next_uniform2(random), branch);
 }
 
-/// Least weight with which a branch competes; less is not visible, and its share of a sum might be
-/// no number.
-const float kLeastBranchWeight = 1e-20f;
-
-/// The weight with which a branch competes: how much of the light of its next hit it carries; 0:
-/// not at all.
-LAMBENT_FN float branch_weight(CoatPath branch) {
-  float weight = luminance(branch.throughput);
-  bool competes = branch.pdf > 0.0f && weight >= kLeastBranchWeight && weight < infinity();
-  return competes ? weight : 0.0f;
-}
-
 LAMBENT_END
 #endif
