@@ -58,28 +58,19 @@ LAMBENT_FN float averaged_frames(float before, float most) {
 // is below kOtherLookup, it is discarded.
 const float kSameLookup = 0.85f;
 const float kOtherLookup = 0.6f;
-// The same while lookups are shown averaged as well. The average difference is then that from their
-// average, and single lookups have much noise, as the field follows a change: to discard the
-// average where they are farthest off would show them as stains. Half of both numbers leaves no
-// less noise (docs/math.md, "While anything changes").
-const float kSameOfAveraged = 0.6f;
-const float kOtherOfAveraged = 0.35f;
 
 /// The share of its frames that an average of differences from lookups keeps. `before`: the mean
 /// luminance of the lookups in the average; `now`: the luminance of this frame's lookup [W/m^2].
-/// `shows_average`: the lookups are shown averaged.
-LAMBENT_FN float kept_by_lookup(float before, float now, bool shows_average) {
-  float same = shows_average ? kSameOfAveraged : kSameLookup;
-  float other = shows_average ? kOtherOfAveraged : kOtherLookup;
+LAMBENT_FN float kept_by_lookup(float before, float now) {
   float greater = max(before, now);
   float ratio = greater > 0.0f ? min(before, now) / greater : 1.0f;
-  return clamp((ratio - other) / (same - other), 0.0f, 1.0f);
+  return clamp((ratio - kOtherLookup) / (kSameLookup - kOtherLookup), 0.0f, 1.0f);
 }
 
-// Changes of level by less than this share are taken for noise of the field; averages of lookups
-// lag behind others by as much. In a flat lit by a turning sun, the mean over a third of the
-// picture's height changes by 2 % from frame to frame by noise alone.
-const float kSteadyLevel = 0.03f;
+// Noise of the change of level of lookups from an average of frames to a frame, as a share. In a
+// flat lit by a turning sun, the mean over a third of the picture's height changes by 2 % from
+// frame to frame by noise alone, of which a seventh is followed.
+const float kLevelNoise = 0.05f;
 // An average that would have to change by more than this factor is of other light.
 const float kMaxLevelChange = 2.0f;
 
@@ -87,16 +78,20 @@ const float kMaxLevelChange = 2.0f;
 /// scaled by kMaxLevelChange alone, it would lag behind. `before`, `now`: luminance of the mean of
 /// lookups around, in the average and in this frame [W/m^2].
 LAMBENT_FN bool is_other_light(float before, float now) {
-  return max(before, now) > kMaxLevelChange * (1.0f + kSteadyLevel) * min(before, now);
+  return max(before, now) > kMaxLevelChange * (1.0f + kLevelNoise) * min(before, now);
 }
 
 /// The factor by which an average of lookups follows a change of level. `before`, `now`: the mean
-/// of lookups around, in the average and in this frame [W/m^2].
-LAMBENT_FN float followed_level(float before, float now) {
-  float change = before > 0.0f ? now / before : 1.0f;
-  float steady = 1.0f + kSteadyLevel;
-  float followed = change > 1.0f ? max(change / steady, 1.0f) : min(change * steady, 1.0f);
-  return clamp(followed, 1.0f / kMaxLevelChange, kMaxLevelChange);
+/// of lookups around, in the average and in this frame [W/m^2]. `noise`: standard deviation of the
+/// logarithm of their ratio x by noise alone. Of x the share x^2 / (x^2 + noise^2) is followed, as
+/// a Wiener filter would (Lim and Oppenheim, "Enhancement and Bandwidth Compression of Noisy
+/// Speech", Proc. IEEE 1979): hardly any of a change within the noise, and nearly all of a larger
+/// one.
+LAMBENT_FN float followed_level(float before, float now, float noise) {
+  float change =
+      clamp(before > 0.0f ? now / before : 1.0f, 1.0f / kMaxLevelChange, kMaxLevelChange);
+  float x = log(change);
+  return exp(x * x * x / (x * x + noise * noise));
 }
 
 // Gathered excess, what a ray brings beyond kBrightestRay times known_level(), comes once in many

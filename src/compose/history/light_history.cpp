@@ -30,7 +30,7 @@ void average(const vec3& before, float frames, vec3& now) {
 struct PixelHistory {
   std::size_t pixel;
   const HistoryTaps& taps;
-  vec3 level;  ///< Factor that brings its gathered light to the level of this frame.
+  FollowedLevel level;  ///< How its gathered light follows the lookups of this frame.
 };
 
 /// How a pixel's gathered light is averaged.
@@ -51,13 +51,15 @@ void average_gathered(const LightHistory& last, const PixelHistory& history,
   vec3& difference = next.differences[i] = pixels.gathered[i] - pixels.looked_up[i];
   vec3& looked_up = next.looked_up[i] = pixels.looked_up[i];
   float& frames = next.gathered_frames[i] = 1.0f;
-  const vec3 looked_up_before = history.level * weighted_sum(last.looked_up, taps);
+  const vec3 looked_up_before = history.level.factor * weighted_sum(last.looked_up, taps);
   if (is_history(taps)) {
-    const float kept =
-        kept_by_lookup(luminance(looked_up_before), luminance(looked_up), by.shows_lookups);
+    // Single lookups have much noise: where averages ended by them, there were stains with edges
+    const float kept = by.shows_lookups
+                           ? history.level.kept
+                           : kept_by_lookup(luminance(looked_up_before), luminance(looked_up));
     frames = averaged_frames(kept * weighted_sum(last.gathered_frames, taps), by.most.of_gathers);
   }
-  const vec3 difference_before = history.level * weighted_sum(last.differences, taps);
+  const vec3 difference_before = history.level.factor * weighted_sum(last.differences, taps);
   const float off = luminance(difference - difference_before);
   average(difference_before, frames, difference);
   average(looked_up_before, frames, looked_up);
@@ -242,7 +244,7 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
       const MostFrames most = most_frames(by, changed, pixels, i);
       if (gathers) {
         const bool moves = by.moved != nullptr && by.moved->contain(pixels.positions_ws[i]);
-        vec3 level(1.0f);
+        FollowedLevel level;
         if (shows_lookups) {
           const float tolerance = finder.tolerance(i, pixels.depths[i], levels.pixels_apart());
           level = levels.followed(view, i, tolerance);

@@ -11,6 +11,12 @@
 
 namespace lambent {
 
+/// How a pixel's average of previous frames follows the lookups of this frame.
+struct FollowedLevel {
+  vec3 factor = vec3(1.0f);  ///< Brings the average to the level of this frame.
+  float kept = 1.0f;         ///< Share of the average's frames that is kept, see kept_by_lookup().
+};
+
 /// The change of level of lookups, from an average of previous frames to this frame. While light
 /// moves, the lookups of each frame have noise of their own, about as large as a cell of the
 /// probes' grid. Averages over frames remove it, and what is known of the light over many cells
@@ -27,12 +33,12 @@ class LookupLevels {
   /// Distance of the pixels at which levels are found [pixels].
   int pixels_apart() const { return step_; }
 
-  /// The factor that brings a pixel's average to the level of this frame, see followed_level(); in
-  /// each channel, as light may have come to be reflected by surfaces of another colour. 1 where no
-  /// pixel around it that shows its surface has a history, and 0 where the average is of other
-  /// light, see is_other_light(). `tolerance`: of its surface's depth
-  /// between pixels that are pixels_apart() apart [m], see depth_tolerance().
-  vec3 followed(const DenoiseView& view, std::size_t pixel, float tolerance) const;
+  /// How a pixel's average follows, see followed_level(): in each channel, as light may have come
+  /// to be reflected by surfaces of another colour. All of it stays where no pixel around that
+  /// shows its surface has a history, and none where it is of other light, see is_other_light().
+  /// `tolerance`: of its surface's depth between pixels that are pixels_apart() apart [m], see
+  /// depth_tolerance().
+  FollowedLevel followed(const DenoiseView& view, std::size_t pixel, float tolerance) const;
 
  private:
   // Of every step_-th pixel of every step_-th row: lookups vary slowly, and the filter has to reach
@@ -42,6 +48,7 @@ class LookupLevels {
   std::vector<vec3> positions_ws_, normals_ws_;
   std::vector<float> depths_;
   std::vector<vec3> factors_;
+  std::vector<float> kept_;
 };
 
 }  // namespace lambent
