@@ -60,8 +60,8 @@ const uint kStageCoatBehindGlass = 8u;
 const uint kStageBeyondCoat = 9u;
 /// It left a MirroredCoat. All light is stored in CoatRay::mirrored.
 const uint kStageBeyondMirroredCoat = 10u;
-/// It came through more than kMaxPathVertices surfaces, and nothing else, or is a branch of a pixel
-/// with few samples, see split(). All light is stored in CoatRay::mirrored.
+/// It came through surfaces alone, more than kMaxPathVertices of them, or is a branch within a
+/// volume of a pixel with few samples, see split(). All light is stored in CoatRay::mirrored.
 const uint kStageLongWay = 11u;
 
 // Values of CoatPath::fork: whether a path splits where glass both transmits and reflects.

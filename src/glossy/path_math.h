@@ -21,7 +21,8 @@ LAMBENT_FN CoatShares further_coat_shares(Transmission through, Reflectance surf
                                           CoatPath path, uint bounce) {
   CoatShares shares = {0.0f, 0.0f};
   if (bounce >= (is_transmissive(through) ? kMaxGlassVertices : kMaxPathVertices)) return shares;
-  if (path.stage == kStageThroughGlass || is_transmissive(through)) {
+  bool seen_through = path.stage == kStageThroughGlass || path.stage == kStageLongWay;
+  if (seen_through || is_transmissive(through)) {
     shares.coat = traced_coat_share(surface);
     if (!is_transmissive(through) && has_clearcoat(surface.layers)) {
       shares.clearcoat = traced_coat_share(clearcoat_alone(surface.layers));
@@ -367,24 +368,28 @@ LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, CoatShares shar
                                 vec3(u, next_uniform(random)), path);
   }
   if (crossing > 0.0f) path.throughput /= 1.0f - crossing;
+  // The coat samples lights, which glass that the path crosses from here on must not forget
+  if (path.stage == kStageLongWay && !is_transmissive(through)) path.stage = kStageOther;
   return extend_by_reflection(coat, shares, normal_ws, geometric_normal_ws, to_viewer_ws,
                               density_scale, u, path);
 }
 
 /// Splits a path at a step, see pack_path_step(): returns the ray of its branch.
 ///
-/// Of a pixel's few samples each keeps one branch in place of many, which is a dot: this light is
-/// filtered as that of long ways is. Of more samples, neighbours' light would only blur it.
+/// Of a pixel's few samples each keeps one branch in place of many, which is a dot: what comes to
+/// it within a volume is filtered as light of long ways is. Of more samples, neighbours' light
+/// would only blur it.
 LAMBENT_FN NextRay split(Transmission through, Reflectance coat, CoatShares shares, vec3 normal_ws,
                          vec3 geometric_normal_ws, vec3 to_viewer_ws, float density_scale,
                          uint path_step, RandomStream random, LAMBENT_INOUT(CoatPath) path,
                          LAMBENT_INOUT(CoatPath) branch) {
   branch = path;
   branch.fork = kForkBranch;
-  if (branch.stage == kStageThroughGlass && !is_stratified(path_step)) branch.stage = kStageLongWay;
   path.fork = kHasForked;
-  return extend_split(false, through, coat, shares, normal_ws, geometric_normal_ws, to_viewer_ws,
-                      density_scale, next_uniform2(random), branch);
+  NextRay next = extend_split(false, through, coat, shares, normal_ws, geometric_normal_ws,
+                              to_viewer_ws, density_scale, next_uniform2(random), branch);
+  if (branch.stage == kStageThroughGlass && !is_stratified(path_step)) branch.stage = kStageLongWay;
+  return next;
 }
 
 LAMBENT_END

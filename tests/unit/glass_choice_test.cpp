@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <utility>
 
 #include "glossy/path_math.h"
 
@@ -118,7 +119,8 @@ TEST(GlassBranches, AndTheMainWayAreAllTheLight) {
   leaves.eta = 1.5f;
   const vec3 normal(0.0f, 0.0f, 1.0f);
   // Straight on, and just within the critical angle
-  for (const auto& [sine, samples] : {std::pair(0.0f, 1u), std::pair(0.6666f, 4u)}) {
+  for (const auto& [sine, samples] :
+       {std::pair(0.0f, 1u), std::pair(0.6666f, 1u), std::pair(0.0f, 4u), std::pair(0.6666f, 4u)}) {
     const vec3 to_viewer(sine, 0.0f, std::sqrt(1.0f - sine * sine));
     const bool is_reflected = inner_reflection(to_viewer.z, leaves.eta) > 0.5f;
     EXPECT_EQ(is_reflected, sine > 0.0f);
@@ -135,6 +137,29 @@ TEST(GlassBranches, AndTheMainWayAreAllTheLight) {
     EXPECT_GE(path.throughput.x, 0.5f);
     EXPECT_NEAR(path.throughput.x + branch.throughput.x, 1.0f, 1e-5f);
   }
+}
+
+// A coat that light of long ways meets samples lights: what hits them after it, behind glass, is
+// weighed against these samples.
+TEST(GlassBranches, KnowTheCoatThatSampledLightsBehindGlass) {
+  const Reflectance metal = coated_reflectance(vec3(0.9f), 1.0f, 0.5f, 1.0f, vec3(1.0f), 1.5f);
+  const Reflectance glass = coated_reflectance(vec3(1.0f), 0.0f, 0.0f, 1.0f, vec3(1.0f), 1.5f);
+  Transmission pane = no_transmission();
+  pane.tint = vec3(1.0f);
+  pane.alpha = 0.0f;
+  pane.kind = kCrossesPane;
+  const vec3 normal(0.0f, 0.0f, 1.0f);
+  CoatPath path = path_through_glass();
+  path.stage = kStageLongWay;
+  path.fork = kForkBranch;
+  const RandomStream random = make_random_stream(9, 0, kSeed);
+  go_on(no_transmission(), metal, {1.0f, 0.0f}, normal, normal, normal, 2.0f, kFirstBounceOfForks,
+        {}, random, path);
+  ASSERT_GT(path.pdf, 0.0f);
+  const float pdf = path.pdf;
+  extend_through_glass(pane, glass, normal, normal, 3.0f, vec3(0.5f), path);
+  EXPECT_EQ(path.pdf, pdf);
+  EXPECT_EQ(path.density_scale, 2.0f);
 }
 
 // Rays of one pixel's coat, of which each has a random stream, choose apart.

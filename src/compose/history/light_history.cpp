@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compose/history/light_history.h"
 
+#include <optional>
+
 #include "compose/frame_tasks.h"
 #include "compose/history/lookup_levels.h"
 #include "compose/motion/motion.h"
@@ -30,7 +32,8 @@ void average(const vec3& before, float frames, vec3& now) {
 struct PixelHistory {
   std::size_t pixel;
   const HistoryTaps& taps;
-  FollowedLevel level;  ///< How its gathered light follows the lookups of this frame.
+  /// How its gathered light follows the lookups around; empty: those of the pixel alone tell.
+  std::optional<FollowedLevel> level;
 };
 
 /// How a pixel's gathered light is averaged.
@@ -41,9 +44,9 @@ struct GatherAverage {
   bool moves;          ///< The pixel shows what moves.
 };
 
-/// Averages what a pixel gathers, over fewer frames where its lookup has changed otherwise than
-/// those around it. Excess is averaged over many frames. That of what moves is shown as it is:
-/// where the field lags behind it, most rays bring more than their lookups.
+/// Averages what a pixel gathers, over fewer frames where lookups have changed: those around it
+/// while light moves, else its own. Excess is averaged over many frames. That of what moves is
+/// shown as it is: where the field lags behind it, most rays bring more than their lookups.
 void average_gathered(const LightHistory& last, const PixelHistory& history,
                       const GatherAverage& by, FilteredPixels& pixels, LightHistory& next) {
   const std::size_t i = history.pixel;
@@ -51,15 +54,17 @@ void average_gathered(const LightHistory& last, const PixelHistory& history,
   vec3& difference = next.differences[i] = pixels.gathered[i] - pixels.looked_up[i];
   vec3& looked_up = next.looked_up[i] = pixels.looked_up[i];
   float& frames = next.gathered_frames[i] = 1.0f;
-  const vec3 looked_up_before = history.level.factor * weighted_sum(last.looked_up, taps);
+  const vec3 factor = history.level ? history.level->factor : vec3(1.0f);
+  const vec3 looked_up_before = factor * weighted_sum(last.looked_up, taps);
   if (is_history(taps)) {
-    // Single lookups have much noise: where averages ended by them, there were stains with edges
-    const float kept = by.shows_lookups
-                           ? history.level.kept
+    // While light moves, single lookups have much noise: where averages ended by them, there were
+    // stains with edges
+    const float kept = history.level
+                           ? history.level->kept
                            : kept_by_lookup(luminance(looked_up_before), luminance(looked_up));
     frames = averaged_frames(kept * weighted_sum(last.gathered_frames, taps), by.most.of_gathers);
   }
-  const vec3 difference_before = history.level.factor * weighted_sum(last.differences, taps);
+  const vec3 difference_before = factor * weighted_sum(last.differences, taps);
   const float off = luminance(difference - difference_before);
   average(difference_before, frames, difference);
   average(looked_up_before, frames, looked_up);
@@ -244,7 +249,7 @@ void average_light(const FrameRequest& request, const LightHistory& last, Filter
       const MostFrames most = most_frames(by, changed, pixels, i);
       if (gathers) {
         const bool moves = by.moved != nullptr && by.moved->contain(pixels.positions_ws[i]);
-        FollowedLevel level;
+        std::optional<FollowedLevel> level;
         if (shows_lookups) {
           const float tolerance = finder.tolerance(i, pixels.depths[i], levels.pixels_apart());
           level = levels.followed(view, i, tolerance);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,11 +35,12 @@ class LookupLevels {
   int pixels_apart() const { return step_; }
 
   /// How a pixel's average follows, see followed_level(): in each channel, as light may have come
-  /// to be reflected by surfaces of another colour. All of it stays where no pixel around that
-  /// shows its surface has a history, and none where it is of other light, see is_other_light().
+  /// to be reflected by surfaces of another colour. `kept` is 0 where it is of other light, see
+  /// is_other_light(). Empty where no pixel around that shows its surface has a history.
   /// `tolerance`: of its surface's depth between pixels that are pixels_apart() apart [m], see
   /// depth_tolerance().
-  FollowedLevel followed(const DenoiseView& view, std::size_t pixel, float tolerance) const;
+  std::optional<FollowedLevel> followed(const DenoiseView& view, std::size_t pixel,
+                                        float tolerance) const;
 
  private:
   // Of every step_-th pixel of every step_-th row: lookups vary slowly, and the filter has to reach

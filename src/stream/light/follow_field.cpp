@@ -155,8 +155,10 @@ UpdatedProbes follow(const IrradianceField& field, float threshold, int first, i
     updated.probes.push_back(probe);
     const std::span<const CodedMoments> before = sent.tile_of(probe);
     updated.tiles_before.insert(updated.tiles_before.end(), before.begin(), before.end());
-    copy_probe(state, probe, sent);
   }
+  parallel_chunks(updated.probes.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) copy_probe(state, updated.probes[k], sent);
+  });
   return updated;
 }
 
