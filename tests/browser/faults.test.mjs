@@ -44,6 +44,17 @@ async function goesOn(what) {
   checks.that((await status()).startsWith('Connected'), `${what}, pictures go on`);
 }
 
+// A decoder that is deaf takes pictures, and neither shows them nor complains
+await page.addInitScript(() => {
+  const { decode } = VideoDecoder.prototype;
+  const deaf = new WeakSet();
+  let last;
+  VideoDecoder.prototype.decode = function decodeUnlessDeaf(chunk) {
+    last = this;
+    if (!deaf.has(this)) decode.call(this, chunk);
+  };
+  window.deafen = () => deaf.add(last);
+});
 await page.goto(url);
 await goesOn('at first');
 
@@ -58,6 +69,11 @@ await new Promise((resolve) => setTimeout(resolve, 1500));
 await sleep.send('Page.setWebLifecycleState', { state: 'active' });
 await goesOn('after it slept');
 checks.that(connections === 2, 'sleep costs no connection');
+
+await page.evaluate(() => window.deafen());
+await page.keyboard.press('ArrowRight', { delay: 60 });
+await until(() => connections === 3, 'another connection with a decoder that hears');
+await goesOn('after its decoder swallowed pictures');
 
 await server.end('SIGKILL');
 await until(async () => (await status()).includes('lost'), 'word of the loss');

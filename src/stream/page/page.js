@@ -6,6 +6,7 @@ import * as protocol from './protocol.js';
 
 const RATE = 30; // maximum pictures per second
 const SEND_MS = 15; // least time between two cameras; servers accept 200 messages per second
+const DECODE_SECONDS = 5; // until a stream begins anew whose decoder shows nothing of what it was given
 
 const element = (id) => document.getElementById(id);
 const canvas = element('picture');
@@ -76,6 +77,19 @@ function restart(error) {
   keyNeeded = true;
   connection.again();
 }
+
+/// Restarts a stream whose decoder swallows pictures without a word. Counted in turns of the page, not by the clock: a
+/// page that sleeps has none.
+let waitsFor, waited = 0;
+function watchDecoder() {
+  const [oldest] = decodeStart.keys();
+  waited = oldest !== undefined && oldest === waitsFor ? waited + 1 : 0;
+  waitsFor = oldest;
+  if (waited < DECODE_SECONDS) return;
+  waited = 0;
+  restart(new Error(`no picture for ${DECODE_SECONDS} s`));
+}
+setInterval(watchDecoder, 1000);
 
 /// Creates a decoder for a new stream. The previous one continues while it has pictures to show.
 function beginDecoding(wanted) {
