@@ -90,8 +90,10 @@ LAMBENT_FN bool is_other_light(float before, float now) {
 LAMBENT_FN float followed_level(float before, float now, float noise) {
   float change =
       clamp(before > 0.0f ? now / before : 1.0f, 1.0f / kMaxLevelChange, kMaxLevelChange);
-  float x = log(change);
-  return exp(x * x * x / (x * x + noise * noise));
+  float octaves = log2(change);
+  float noise_octaves = noise * log2(exp(1.0f));
+  float squares = octaves * octaves + noise_octaves * noise_octaves;
+  return exp2(octaves * octaves * octaves / squares);
 }
 
 // Gathered excess, what a ray brings beyond kBrightestRay times known_level(), comes once in many
