@@ -49,7 +49,7 @@ page.on('websocket', (socket) => {
 });
 const shown = () => page.locator('#picture').evaluate((canvas) => ({ ...canvas.dataset }));
 
-/// Acts on the page, and waits until it has sent that to the server: the page does so in its next turn.
+/// Acts on the page, and waits until it has sent another input to the server.
 async function act(action) {
   const before = lastInput;
   await action();

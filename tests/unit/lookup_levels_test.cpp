@@ -80,7 +80,7 @@ TEST(LookupLevels, AreNotThoseOfCloudsOfNoise) {
   }
 }
 
-// A patch of sun leaves the middle of a wall. The mean over a third of the picture hardly changes
+// A patch of sun leaves the middle of a wall. The mean over a third of the picture hardly changes.
 TEST(LookupLevels, FollowLightThatLeavesPartOfAWall) {
   const TwoWalls walls(320, 180);
   std::vector<vec3> before = walls.light(1.0f, 1.0f);
@@ -102,6 +102,20 @@ TEST(LookupLevels, FollowLightThatLeavesPartOfAWall) {
     EXPECT_NEAR(level->factor.x, last, 0.02f) << x;
     last = level->factor.x;
   }
+}
+
+// A pole between the pixels at which levels are found: its own lookups have to tell.
+TEST(LookupLevels, AreUnknownForThingsThinnerThanTheyAreApart) {
+  const TwoWalls walls(720, 405);
+  const LookupLevels levels(walls.view, walls.light(1.0f, 1.0f), walls.light(0.1f, 0.1f));
+  ASSERT_GT(levels.pixels_apart(), 1);
+  DenoiseView with_pole = walls.view;
+  std::vector<float> depths(walls.view.depths.begin(), walls.view.depths.end());
+  const std::size_t pole = walls.pixel(levels.pixels_apart() + 1, 10);
+  depths[pole] *= 0.5f;
+  with_pole.depths = depths;
+  EXPECT_TRUE(levels.followed(walls.view, pole, kTolerance));
+  EXPECT_FALSE(levels.followed(with_pole, pole, kTolerance));
 }
 
 TEST(LookupLevels, FollowLargeChangesAlone) {

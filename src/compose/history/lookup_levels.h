@@ -14,8 +14,8 @@ namespace lambent {
 
 /// How a pixel's average of previous frames follows the lookups of this frame.
 struct FollowedLevel {
-  vec3 factor = vec3(1.0f);  ///< Brings the average to the level of this frame.
-  float kept = 1.0f;         ///< Share of the average's frames that is kept, see kept_by_lookup().
+  vec3 factor;  ///< Brings the average to the level of this frame.
+  float kept;   ///< Share of the average's frames that is kept, 0 to 1, see kept_by_lookup().
 };
 
 /// The change of level of lookups, from an average of previous frames to this frame. While light

@@ -78,9 +78,10 @@ function restart(error) {
   connection.again();
 }
 
-/// Restarts a stream whose decoder swallows pictures without a word. Counted in turns of the page, not by the clock: a
-/// page that sleeps has none.
 let waitsFor, waited = 0;
+
+/// Restarts a stream whose decoder neither shows a picture nor reports an error. It counts calls and does not read the
+/// clock, as a page that sleeps is not called.
 function watchDecoder() {
   const [oldest] = decodeStart.keys();
   waited = oldest !== undefined && oldest === waitsFor ? waited + 1 : 0;
