@@ -93,10 +93,16 @@ struct Material {
   /// Share of the surface that is covered by a clearcoat of index of refraction 1.5, 0 to 1
   /// (KHR_materials_clearcoat). Pixels that show one cost a second reflection ray.
   float clearcoat = 0.0f;
-  float clearcoat_roughness = 0.0f;          ///< Perceptual roughness, 0 to 1.
-  float clearcoat_normal_scale = 1.0f;       ///< As normal_scale, for clearcoat_normal_texture.
-  glm::vec3 sheen_color{0.0f};               ///< Colour of the sheen, 0 to 1 (KHR_materials_sheen).
-  float sheen_roughness = 0.0f;              ///< Perceptual, 0 to 1; lower: closer to silhouettes.
+  float clearcoat_roughness = 0.0f;     ///< Perceptual roughness, 0 to 1.
+  float clearcoat_normal_scale = 1.0f;  ///< As normal_scale, for clearcoat_normal_texture.
+  glm::vec3 sheen_color{0.0f};          ///< Colour of the sheen, 0 to 1 (KHR_materials_sheen).
+  float sheen_roughness = 0.0f;         ///< Perceptual, 0 to 1; lower: closer to silhouettes.
+  /// Share of the surface that a thin film covers, whose colours are those of interference, 0 to 1
+  /// (KHR_materials_iridescence).
+  float iridescence = 0.0f;
+  float iridescence_ior = 1.3f;  ///< Index of refraction of the film, 1 to 1e6.
+  /// Thickness of the film where its texture is 0, and where that is 1 or absent [nm], 0 to 1e6.
+  float iridescence_thickness_min = 100.0f, iridescence_thickness_max = 400.0f;
   AlphaMode alpha_mode = AlphaMode::opaque;  ///< What base_color.a does.
   float alpha_cutoff = 0.5f;  ///< Coverage below which AlphaMode::mask lets rays through.
   /// A probe ray that hits the back of a single-sided surface returns no light.
@@ -116,6 +122,9 @@ struct Material {
   TextureView clearcoat_normal_texture;     ///< Tangent space, +Y up; none: the mesh's own normals.
   TextureView sheen_color_texture;          ///< RGB, sRGB.
   TextureView sheen_roughness_texture;      ///< A sheen roughness.
+  TextureView iridescence_texture;          ///< R share that the film covers.
+  /// G thickness of the film, from its minimum to its maximum.
+  TextureView iridescence_thickness_texture;
 
   bool operator==(const Material&) const = default;
 };

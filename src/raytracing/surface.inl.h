@@ -11,6 +11,7 @@
 //   bool is_transmissive(MaterialRef material)
 //   bool bounds_volume(MaterialRef material)
 //   bool has_layers(MaterialRef material)
+//   bool has_film(MaterialRef material)
 
 /// Tangent with handedness, in object space, for the layout of a texture.
 LAMBENT_FN vec4 tangent_at(MeshRef mesh, TextureViewRef view, TrianglePointRef p, vec3 edge1,
@@ -101,6 +102,23 @@ LAMBENT_FN SurfaceLayers layers_at(SceneRef scene, MeshRef mesh, MaterialRef mat
   return layers_of(sheen, sheen_roughness, clearcoat, clearcoat_roughness);
 }
 
+/// The thin film on a surface; share 0: there is none.
+LAMBENT_FN ThinFilm film_at(SceneRef scene, MeshRef mesh, MaterialRef material, TrianglePointRef p,
+                            ConeShare cone_share) {
+  ThinFilm film = {material.iridescence, material.iridescence_ior,
+                   material.iridescence_thickness_max};
+  if (material.iridescence_texture.texture >= 0) {
+    film.share *= texture_at(scene, mesh, material.iridescence_texture, p, cone_share).x;
+  }
+  if (material.iridescence_thickness_texture.texture >= 0) {
+    float thick =
+        precise_texture_at(scene, mesh, material.iridescence_thickness_texture, p, cone_share).y;
+    film.thickness_nm =
+        mix(material.iridescence_thickness_min, material.iridescence_thickness_max, thick);
+  }
+  return film;
+}
+
 LAMBENT_FN Optics optics_at(SceneRef scene, MeshRef mesh, MaterialRef material, TrianglePointRef p,
                             ConeShare cone_share) {
   Optics optics = {lambert_reflectance(vec3(0.0f)), vec3(0.0f)};
@@ -159,6 +177,10 @@ LAMBENT_FN vec3 straight_share_at(SceneRef scene, uint instance_index, uint tria
   vec3 normal_ws = normalize_or(cofactors(instance.world_from_object) * face_normal, -direction_ws);
   Optics optics = optics_at(scene, mesh, material, p, full_resolution());
   if (bounds_volume(material) && !from_front) return optics.tint;
+  if (has_film(material)) {
+    put_film(optics.reflectance, film_at(scene, mesh, material, p, full_resolution()),
+             abs(dot(normal_ws, direction_ws)));
+  }
   return straight_share(optics.tint, optics.reflectance, dot(normal_ws, direction_ws));
 }
 
@@ -274,6 +296,10 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
   Optics optics = bumpy_optics_at(scene, mesh, material, p, cone_share, bent.spread);
   surface.reflectance = optics.reflectance;
   surface.reflectance.mean_normal_length = bent.mean_length;
+  if (has_film(material)) {
+    put_film(surface.reflectance, film_at(scene, mesh, material, p, cone_share),
+             -dot(surface.normal_ws, direction_ws));
+  }
   surface.emission = emission_at(scene, mesh, material, p, cone_share);
   if (has_clearcoat(surface.reflectance.layers)) {
     BentNormal coat =

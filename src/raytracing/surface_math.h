@@ -3,7 +3,7 @@
 #ifndef LAMBENT_RAYTRACING_SURFACE_MATH_H
 #define LAMBENT_RAYTRACING_SURFACE_MATH_H
 
-#include "shared/brdf.h"
+#include "shared/thin_film.h"
 
 LAMBENT_BEGIN
 

@@ -18,7 +18,7 @@ namespace lambent {
 namespace {
 
 constexpr std::string_view kMagic = "lambent prepared";
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 
 template <class T>
 using Word = std::integral_constant<bool, std::is_trivially_copyable_v<T> && sizeof(T) % 4 == 0>;
@@ -221,6 +221,10 @@ void fields(File& file, typename File::template Of<Material>& material) {
   file.number(material.clearcoat_normal_scale);
   file.number(material.sheen_color);
   file.number(material.sheen_roughness);
+  file.number(material.iridescence);
+  file.number(material.iridescence_ior);
+  file.number(material.iridescence_thickness_min);
+  file.number(material.iridescence_thickness_max);
   for (auto* view : texture_views(material)) fields(file, *view);
 }
 

@@ -71,11 +71,20 @@ inline vec4 sample_texture(const Scene& scene, const TextureView& view, vec2 uv,
 /// The views of a Material or const Material, as pointers to these.
 template <class AMaterial>
 auto texture_views(AMaterial& m) {
-  return std::array{
-      &m.base_color_texture,       &m.metallic_roughness_texture, &m.normal_texture,
-      &m.emission_texture,         &m.specular_texture,           &m.specular_color_texture,
-      &m.transmission_texture,     &m.clearcoat_texture,          &m.clearcoat_roughness_texture,
-      &m.clearcoat_normal_texture, &m.sheen_color_texture,        &m.sheen_roughness_texture};
+  return std::array{&m.base_color_texture,
+                    &m.metallic_roughness_texture,
+                    &m.normal_texture,
+                    &m.emission_texture,
+                    &m.specular_texture,
+                    &m.specular_color_texture,
+                    &m.transmission_texture,
+                    &m.clearcoat_texture,
+                    &m.clearcoat_roughness_texture,
+                    &m.clearcoat_normal_texture,
+                    &m.sheen_color_texture,
+                    &m.sheen_roughness_texture,
+                    &m.iridescence_texture,
+                    &m.iridescence_thickness_texture};
 }
 
 /// Whether `view` belongs to the material's sheen or clearcoat.
@@ -83,6 +92,11 @@ inline bool is_of_layers(const Material& m, const TextureView* view) {
   return view == &m.clearcoat_texture || view == &m.clearcoat_roughness_texture ||
          view == &m.clearcoat_normal_texture || view == &m.sheen_color_texture ||
          view == &m.sheen_roughness_texture;
+}
+
+/// Whether `view` belongs to the material's thin film.
+inline bool is_of_film(const Material& m, const TextureView* view) {
+  return view == &m.iridescence_texture || view == &m.iridescence_thickness_texture;
 }
 
 }  // namespace lambent

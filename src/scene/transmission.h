@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which materials stop rays, which ones transmit light, and which ones have layers.
+// Which materials stop rays, which ones transmit light, and which ones have layers or films.
 #pragma once
 
 #include "lambent/scene.h"
@@ -17,6 +17,11 @@ inline bool is_transmissive(const Material& material) {
 inline bool has_layers(const Material& material) {
   const bool any = material.clearcoat > 0.0f || material.sheen_color != glm::vec3(0.0f);
   return any && !material.unlit && !material.lambert;
+}
+
+/// Whether a thin film covers some point of the material.
+inline bool has_film(const Material& material) {
+  return material.iridescence > 0.0f && !material.unlit && !material.lambert;
 }
 
 /// Whether light may pass the material in part, so that it dims shadow rays.

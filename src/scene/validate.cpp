@@ -93,7 +93,20 @@ const char* flaw_of(const Texture& texture) {
   return last.width == 1 && last.height == 1 ? nullptr : "lacks MIP levels down to 1x1";
 }
 
-const char* flaw_of(const Material& m, std::size_t textures) {
+const char* flaw_of_film(const Material& m) {
+  if (!in_unit_range(m.iridescence)) return "iridescence is not within 0 to 1";
+  if (!(m.iridescence_ior >= 1.0f && m.iridescence_ior <= kMaxFactor)) {
+    return "iridescence_ior is not within 1 to 1e6";
+  }
+  for (const float thickness : {m.iridescence_thickness_min, m.iridescence_thickness_max}) {
+    if (!(thickness >= 0.0f && thickness <= kMaxFactor)) {
+      return "an iridescence_thickness is not within 0 to 1e6 nm";
+    }
+  }
+  return nullptr;
+}
+
+const char* flaw_of_factors(const Material& m) {
   for (int k = 0; k < 4; ++k) {
     if (!in_unit_range(m.base_color[k])) return "base_color is not within 0 to 1";
   }
@@ -118,6 +131,11 @@ const char* flaw_of(const Material& m, std::size_t textures) {
   }
   if (!within(m.sheen_color, 0.0f, 1.0f)) return "sheen_color is not within 0 to 1";
   if (!in_unit_range(m.sheen_roughness)) return "sheen_roughness is not within 0 to 1";
+  return flaw_of_film(m);
+}
+
+const char* flaw_of(const Material& m, std::size_t textures) {
+  if (const char* flaw = flaw_of_factors(m)) return flaw;
   for (const TextureView* view : texture_views(m)) {
     if (const char* flaw = flaw_of(*view, textures)) return flaw;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What surfaces with a sheen or a clearcoat reflect where radiance is 1 from all around, in frames
-// and in the reference: all of their lobes together, and no light twice or not at all.
+// What surfaces with a sheen, a clearcoat or a thin film reflect where radiance is 1 from all
+// around, in frames and in the reference: all of their lobes together, and no light twice or not at
+// all.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -33,6 +34,7 @@ struct Case {
   float roughness;
   float clearcoat, clearcoat_roughness;
   float sheen, sheen_roughness;
+  float film_nm;  ///< Thickness of a film [nm]; 0: none.
 };
 
 // The test library looks for it by this name.
@@ -50,6 +52,9 @@ Material material_of(const Case& c) {
   material.clearcoat_roughness = c.clearcoat_roughness;
   material.sheen_color = glm::vec3(c.sheen);
   material.sheen_roughness = c.sheen_roughness;
+  material.iridescence = c.film_nm > 0.0f ? 1.0f : 0.0f;
+  material.iridescence_ior = 1.8f;
+  material.iridescence_thickness_max = c.film_nm;
   return material;
 }
 
@@ -112,12 +117,14 @@ TEST_P(LayersFurnace, ReflectsAllItsLobes) {
 }
 
 constexpr Case kCases[] = {
-    {"plastic", 0.0f, 0.6f, 1.0f, 0.05f, 0.0f, 0.0f},
-    {"rough_metal", 1.0f, 0.7f, 1.0f, 0.1f, 0.0f, 0.0f},
-    {"rough_clearcoat", 1.0f, 0.2f, 0.5f, 0.6f, 0.0f, 0.0f},
-    {"cloth", 0.0f, 1.0f, 0.0f, 0.0f, 1.0f, 0.5f},
-    {"velvet", 0.0f, 0.9f, 0.0f, 0.0f, 0.6f, 1.0f},
-    {"lacquered_cloth", 0.0f, 0.8f, 1.0f, 0.2f, 0.5f, 0.7f},
+    {"plastic", 0.0f, 0.6f, 1.0f, 0.05f, 0.0f, 0.0f, 0.0f},
+    {"rough_metal", 1.0f, 0.7f, 1.0f, 0.1f, 0.0f, 0.0f, 0.0f},
+    {"rough_clearcoat", 1.0f, 0.2f, 0.5f, 0.6f, 0.0f, 0.0f, 0.0f},
+    {"cloth", 0.0f, 1.0f, 0.0f, 0.0f, 1.0f, 0.5f, 0.0f},
+    {"velvet", 0.0f, 0.9f, 0.0f, 0.0f, 0.6f, 1.0f, 0.0f},
+    {"lacquered_cloth", 0.0f, 0.8f, 1.0f, 0.2f, 0.5f, 0.7f, 0.0f},
+    {"film_on_metal", 1.0f, 0.2f, 0.0f, 0.0f, 0.0f, 0.0f, 420.0f},
+    {"film_on_lacquered_plastic", 0.0f, 0.4f, 1.0f, 0.1f, 0.0f, 0.0f, 300.0f},
 };
 
 INSTANTIATE_TEST_SUITE_P(Cases, LayersFurnace,

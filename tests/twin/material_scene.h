@@ -87,6 +87,12 @@ inline Scene material_scene() {
     m.clearcoat_roughness_texture = view(kData, Wrap::repeat, Wrap::clamp_to_edge);
     m.clearcoat_normal_texture = view(kBumps, Wrap::mirrored_repeat, Wrap::repeat);
     m.clearcoat_normal_scale = 0.5f;
+    m.iridescence = 0.9f;
+    m.iridescence_texture = view(kData, Wrap::mirrored_repeat, Wrap::clamp_to_edge);
+    m.iridescence_ior = 1.6f;
+    m.iridescence_thickness_min = 200.0f;
+    m.iridescence_thickness_max = 500.0f;
+    m.iridescence_thickness_texture = view(kData, Wrap::repeat, Wrap::repeat);
   });
   Mesh ball = sphere(0.8f, 10, coated);
   for (const glm::vec3& n : ball.normals) {

@@ -248,12 +248,12 @@ TEST(GltfExtensions, RequiredAndUnknownIsAnErrorThatNamesIt) {
 
 TEST(GltfExtensions, OptionalAndUnknownIsAWarning) {
   const Expected<Scene> scene = load_text(R"({"asset": {"version": "2.0"},
-      "extensionsUsed": ["EXT_from_the_future", "KHR_materials_iridescence",
+      "extensionsUsed": ["EXT_from_the_future", "KHR_materials_anisotropy",
                          "KHR_materials_ior"]})");
   ASSERT_TRUE(scene) << error_of(scene);
   EXPECT_THAT(scene->source.extensions, SizeIs(3));
   EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("EXT_from_the_future is not known")));
-  EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("KHR_materials_iridescence")));
+  EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("KHR_materials_anisotropy")));
   EXPECT_THAT(scene->source.warnings, testing::Not(Contains(HasSubstr("KHR_materials_ior"))));
 }
 

@@ -61,6 +61,12 @@ Material every_number_its_own() {
   m.clearcoat_normal_texture.uv_offset.x = 9.0f;
   m.sheen_color_texture.uv_offset.x = 10.0f;
   m.sheen_roughness_texture.uv_offset.x = 11.0f;
+  m.iridescence = 0.28f;
+  m.iridescence_ior = 1.29f;
+  m.iridescence_thickness_min = 30.0f;
+  m.iridescence_thickness_max = 310.0f;
+  m.iridescence_texture.uv_offset.x = 12.0f;
+  m.iridescence_thickness_texture.uv_offset.x = 13.0f;
   return m;
 }
 

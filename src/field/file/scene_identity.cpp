@@ -83,7 +83,7 @@ void add_material(const Material& material, Checksum& sum) {
   sum.add(material.double_sided);
   sum.add(material.unlit);
   sum.add(material.lambert);
-  // The checksum of a scene without layers must be the same as before layers existed
+  // The checksum of a scene without layers or films must be the same as before these existed
   const bool layered = has_layers(material);
   if (layered) {
     sum.add(material.clearcoat);
@@ -92,8 +92,17 @@ void add_material(const Material& material, Checksum& sum) {
     sum.add(material.sheen_color);
     sum.add(material.sheen_roughness);
   }
+  const bool filmed = has_film(material);
+  if (filmed) {
+    sum.add(material.iridescence);
+    sum.add(material.iridescence_ior);
+    sum.add(material.iridescence_thickness_min);
+    sum.add(material.iridescence_thickness_max);
+  }
   for (const TextureView* view : texture_views(material)) {
-    if (layered || !is_of_layers(material, view)) add_view(*view, sum);
+    if (!layered && is_of_layers(material, view)) continue;
+    if (!filmed && is_of_film(material, view)) continue;
+    add_view(*view, sum);
   }
 }
 

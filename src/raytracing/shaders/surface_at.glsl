@@ -20,6 +20,9 @@ bool has_tangents(MeshRecord mesh) {
 bool is_lambert(MaterialRecord material) {
   return (material.flags & kMaterialLambert) != 0u;
 }
+bool has_film(MaterialRecord material) {
+  return (material.flags & kMaterialHasFilm) != 0u;
+}
 bool is_transmissive(MaterialRecord material) {
   return (material.flags & kMaterialLetsThrough) != 0u;
 }

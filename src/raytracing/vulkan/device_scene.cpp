@@ -51,7 +51,7 @@ MaterialRecord record_of(const Scene& scene, const Material& m) {
                  (m.lambert ? kMaterialLambert : 0) | (may_emit(m) ? kMaterialMayEmit : 0) |
                  (m.bounds_volume ? kMaterialBoundsVolume : 0) |
                  (is_transmissive(m) ? kMaterialLetsThrough : 0) |
-                 (has_layers(m) ? kMaterialHasLayers : 0);
+                 (has_layers(m) ? kMaterialHasLayers : 0) | (has_film(m) ? kMaterialHasFilm : 0);
   record.base_color_texture = record_of(scene, m.base_color_texture);
   record.metallic_roughness_texture = record_of(scene, m.metallic_roughness_texture);
   record.normal_texture = record_of(scene, m.normal_texture);
@@ -69,6 +69,12 @@ MaterialRecord record_of(const Scene& scene, const Material& m) {
   record.clearcoat_normal_texture = record_of(scene, m.clearcoat_normal_texture);
   record.sheen_color_texture = record_of(scene, m.sheen_color_texture);
   record.sheen_roughness_texture = record_of(scene, m.sheen_roughness_texture);
+  record.iridescence = m.iridescence;
+  record.iridescence_ior = m.iridescence_ior;
+  record.iridescence_thickness_min = m.iridescence_thickness_min;
+  record.iridescence_thickness_max = m.iridescence_thickness_max;
+  record.iridescence_texture = record_of(scene, m.iridescence_texture);
+  record.iridescence_thickness_texture = record_of(scene, m.iridescence_thickness_texture);
   return record;
 }
 

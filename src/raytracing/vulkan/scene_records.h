@@ -46,6 +46,7 @@ const uint kMaterialMayEmit = 8u;  ///< Some point of it may emit light.
 const uint kMaterialBoundsVolume = 16u;
 const uint kMaterialLetsThrough = 32u;  ///< Transmits light; see is_transmissive().
 const uint kMaterialHasLayers = 64u;    ///< See has_layers().
+const uint kMaterialHasFilm = 128u;     ///< See has_film().
 
 /// See Material in scene.h.
 struct MaterialRecord {
@@ -80,6 +81,13 @@ struct MaterialRecord {
   TextureViewRecord clearcoat_normal_texture;
   TextureViewRecord sheen_color_texture;
   TextureViewRecord sheen_roughness_texture;
+  // Read where a film is on it:
+  float iridescence;
+  float iridescence_ior;
+  float iridescence_thickness_min;  ///< [nm]
+  float iridescence_thickness_max;  ///< [nm]
+  TextureViewRecord iridescence_texture;
+  TextureViewRecord iridescence_thickness_texture;
 };
 
 // Bits of MeshRecord::attributes: the arrays besides positions, normals and triangles.

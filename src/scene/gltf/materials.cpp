@@ -37,6 +37,7 @@ class MaterialReader {
     read_volume();
     LAMBENT_CHECK(read_clearcoat(options));
     LAMBENT_CHECK(read_sheen());
+    LAMBENT_CHECK(read_film());
     if (options.normal_maps) {
       LAMBENT_CHECK(take(source_.normalTexture, kNormals, material_.normal_texture));
       material_.normal_scale = static_cast<float>(source_.normalTexture.scale);
@@ -221,6 +222,23 @@ class MaterialReader {
     material_.sheen_roughness = static_cast<float>(number_or(*sheen, "sheenRoughnessFactor", 0.0));
     LAMBENT_CHECK(take(*sheen, "sheenColorTexture", kColor, material_.sheen_color_texture));
     return take(*sheen, "sheenRoughnessTexture", kData, material_.sheen_roughness_texture);
+  }
+
+  Expected<void> read_film() {
+    const auto* film = find_extension(source_.extensions, "KHR_materials_iridescence");
+    if (!film) return {};
+    const auto number = [film](const char* name, float fallback) {
+      return static_cast<float>(number_or(*film, name, fallback));
+    };
+    material_.iridescence = number("iridescenceFactor", material_.iridescence);
+    material_.iridescence_ior = number("iridescenceIor", material_.iridescence_ior);
+    material_.iridescence_thickness_min =
+        number("iridescenceThicknessMinimum", material_.iridescence_thickness_min);
+    material_.iridescence_thickness_max =
+        number("iridescenceThicknessMaximum", material_.iridescence_thickness_max);
+    LAMBENT_CHECK(take(*film, "iridescenceTexture", kData, material_.iridescence_texture));
+    return take(*film, "iridescenceThicknessTexture", kData,
+                material_.iridescence_thickness_texture);
   }
 
   Expected<void> read_alpha() {

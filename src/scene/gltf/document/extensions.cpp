@@ -24,7 +24,7 @@ constexpr Extension kKnown[] = {
     {"KHR_materials_dispersion",            false, "all colors are refracted alike"},
     {"KHR_materials_emissive_strength",     true,  nullptr},
     {"KHR_materials_ior",                   true,  nullptr},
-    {"KHR_materials_iridescence",           false, kIgnoredLobe},
+    {"KHR_materials_iridescence",           true,  nullptr},
     {"KHR_materials_pbrSpecularGlossiness", true,  nullptr},
     {"KHR_materials_sheen",                 true,  nullptr},
     {"KHR_materials_specular",              true,  nullptr},
