@@ -229,14 +229,19 @@ LAMBENT_FN ConeShare cone_share_of(Footprint footprint, float double_area) {
   return share;
 }
 
-/// optics_at(), with a coat that is rougher where bumps are averaged over, of which most scatter by
-/// `spread`.
-LAMBENT_FN Optics bumpy_optics_at(SceneRef scene, MeshRef mesh, MaterialRef material,
-                                  TrianglePointRef p, ConeShare cone_share, float spread) {
+/// optics_at() of a surface that is seen at the cosine `n_dot_v`: with a coat that is rougher where
+/// bumps are averaged over, and with its thin film.
+LAMBENT_FN Optics seen_optics_at(SceneRef scene, MeshRef mesh, MaterialRef material,
+                                 TrianglePointRef p, ConeShare cone_share, BentNormal bent,
+                                 float n_dot_v) {
   Optics optics = optics_at(scene, mesh, material, p, cone_share);
   if (cone_share.blended != 0u) {
     optics.reflectance.alpha =
-        widened_alpha(optics.reflectance.alpha, spread * material.normal_scale);
+        widened_alpha(optics.reflectance.alpha, bent.spread * material.normal_scale);
+  }
+  optics.reflectance.mean_normal_length = bent.mean_length;
+  if (has_film(material)) {
+    put_film(optics.reflectance, film_at(scene, mesh, material, p, cone_share), n_dot_v);
   }
   return optics;
 }
@@ -293,13 +298,9 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
   surface.normal_ws =
       seen_normal(facing, normal_from_object * bent.normal, material.normal_texture);
 
-  Optics optics = bumpy_optics_at(scene, mesh, material, p, cone_share, bent.spread);
+  Optics optics = seen_optics_at(scene, mesh, material, p, cone_share, bent,
+                                 -dot(surface.normal_ws, direction_ws));
   surface.reflectance = optics.reflectance;
-  surface.reflectance.mean_normal_length = bent.mean_length;
-  if (has_film(material)) {
-    put_film(surface.reflectance, film_at(scene, mesh, material, p, cone_share),
-             -dot(surface.normal_ws, direction_ws));
-  }
   surface.emission = emission_at(scene, mesh, material, p, cone_share);
   if (has_clearcoat(surface.reflectance.layers)) {
     BentNormal coat =
