@@ -4,65 +4,14 @@
 #include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "bench/motion/left_over.h"
 #include "bench/motion/sequence.h"
 #include "bench/stage.h"
 
 namespace lambent::motion {
 namespace {
 
-// Frames after which ghosts are measured.
-constexpr int kAfter = 4;
 constexpr int kMostFrames = 16;
-
-float luminance_at(const Image& image, int x, int y) {
-  const float* p = image.at(x, y);
-  return 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
-}
-
-struct Left {
-  double mean = 0.0, largest = 0.0;  ///< Share of the old light, over pixels that were bright.
-};
-
-/// Whether the light of a pixel differs from that of its neighbours: excess light there is the edge
-/// of something bright, not a ghost.
-bool is_near_edge(const Image& truth, int x, int y, float step) {
-  float least = luminance_at(truth, x, y), most = least;
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
-      const float there = luminance_at(truth, std::clamp(x + dx, 0, kWidth - 1),
-                                       std::clamp(y + dy, 0, kHeight - 1));
-      least = std::min(least, there);
-      most = std::max(most, there);
-    }
-  }
-  return most - least > step;
-}
-
-/// For pixels that were much brighter `kAfter` frames ago than they should be now, the ratio of the
-/// excess light now to that then.
-Left left_over(const Image& then, const Image& now, const Image& truth) {
-  double too_much = 0.0, was_too_much = 0.0;
-  Left left;
-  float brightest = 0.0f;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      brightest = std::max(brightest, luminance_at(then, x, y) - luminance_at(truth, x, y));
-    }
-  }
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const float should = luminance_at(truth, x, y);
-      const float before = luminance_at(then, x, y) - should;
-      if (before < 0.5f * brightest || is_near_edge(truth, x, y, 0.1f * brightest)) continue;
-      const float after = std::max(luminance_at(now, x, y) - should, 0.0f);
-      too_much += after;
-      was_too_much += before;
-      left.largest = std::max(left.largest, static_cast<double>(after / before));
-    }
-  }
-  left.mean = was_too_much > 0.0 ? too_much / was_too_much : 0.0;
-  return left;
-}
 
 /// An emissive box that crosses the court of the atrium, some pixels per frame.
 void measure_box() {
