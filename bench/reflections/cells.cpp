@@ -65,7 +65,7 @@ void measure_cells() {
   std::printf("| cells, wide and high [m] | along x | half as long | along y | half as long |\n");
   std::printf("|---|---|---|---|---|\n");
   const Subject subject(room_with_plate(metal(0.0f)));
-  const Reflected found = reflected_in(subject, view_of_wall(), kSide, kSide, kReferenceSamples);
+  const Reflected found = reflected_in(subject, view_of_wall(), kSide, kSamples);
   const glm::vec3 cell = subject.field.grids().front().spacing;
   const auto waves = [&](bool of_columns, float length) {
     return 100.0 * amplitude(profile(found, of_columns),

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSteps = 64;
 constexpr int kRampSide = 32;  // of pictures [pixels]
-constexpr int kRampSamples = 256;
+constexpr Samples kRampSamples{16, 256};
 // The field holds all bounces after one update; its noise, of the same rays at each step, cancels.
 constexpr int kUpdates = 2;
 constexpr glm::ivec3 kProbes{7, 5, 9};
@@ -69,7 +69,7 @@ void measure(const View& view, bool ribbed) {
     if (ribbed) scene.textures.push_back(ribs());
     const Subject subject(std::move(scene), settings, kUpdates);
     const Camera camera = look_at(view.eye, view.target, kViewAngle);
-    const Reflected found = reflected_in(subject, camera, kRampSide, kRampSide, kRampSamples);
+    const Reflected found = reflected_in(subject, camera, kRampSide, kRampSamples);
     ours.add(mean_of(found.ours));
     reference.add(mean_of(found.reference));
   }

@@ -26,8 +26,7 @@ void measure_spheres() {
   std::printf("| roughness | mean ratio | relative RMSE |\n|---|---|---|\n");
   for (const float roughness : {0.0f, 0.1f, 0.2f, 0.4f, 0.6f, 0.8f}) {
     const Subject subject(spheres_of(roughness));
-    const Reflected found =
-        reflected_in(subject, subject.scene.cameras.front(), kSide, kSide, kReferenceSamples);
+    const Reflected found = reflected_in(subject, subject.scene.cameras.front(), kSide, kSamples);
     const Metrics metrics = bench::value_or_throw(compare_images(
         found.ours, found.reference,
         {.block = kBlock, .standard_error = &found.standard_error, .perceptual = false}));

@@ -49,15 +49,14 @@ Scene room_with_plate(const Material& plate) {
   return scene;
 }
 
-Reflected reflected_in(const Subject& subject, const Camera& camera, int width, int height,
-                       int reference_samples) {
+Reflected reflected_in(const Subject& subject, const Camera& camera, int side,
+                       const Samples& samples) {
   FrameSettings frame = quality_settings(Quality::high);
-  frame.width = width;
-  frame.height = height;
+  frame.width = frame.height = side;
+  frame.samples = samples.ours;
   ReferenceSettings by;
-  by.width = width;
-  by.height = height;
-  by.samples = reference_samples;
+  by.width = by.height = side;
+  by.samples = samples.reference;
   by.layer_errors = true;
   const RenderedFrame picture = bench::value_or_throw(
       Renderer(subject.world, {.field = &subject.field}).render(camera, frame));

@@ -122,6 +122,11 @@ Expected<FirstView> first_view(const World& world, const FirstViewSettings& sett
   if (const auto inside = room_view(world, subject, survey, room_fov, settings.aspect)) {
     return seen_from(world, *inside, settings.aspect, true);
   }
+  if (const auto near = without_things_apart(world, subject)) {
+    const SpaceSurvey within = survey_space(world, near->bounds);
+    const auto inside = room_view(world, *near, within, room_fov, settings.aspect);
+    if (inside) return seen_from(world, *inside, settings.aspect, true);
+  }
   const ViewedFrom from = is_open_housing(survey) ? ViewedFrom::above : ViewedFrom::anywhere;
   const Expected<Camera> all =
       outside_view(world, subject, from, poses, object_fov, settings.aspect);

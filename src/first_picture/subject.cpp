@@ -32,7 +32,7 @@ constexpr std::size_t kMaxStudioPanels = 64;
 // Strays are at least this many diagonals of the rest, and of each of them, away from the rest: in
 // a picture of all, there would be specks alone.
 constexpr float kStrayDistance = 10.0f;
-// Strays have fewer triangles than this share of the scene's.
+// Strays, and things that stand apart from a room, have fewer triangles than this share of all.
 constexpr double kMaxStrayShare = 0.5;
 
 /// Whether a box is flat along an axis.
@@ -129,14 +129,20 @@ double triangles_of(const Scene& scene, std::uint32_t instance) {
   return static_cast<double>(scene.meshes[scene.instances[instance].mesh].triangles.size());
 }
 
+double triangles_of(const Scene& scene, std::span<const std::uint32_t> instances) {
+  double sum = 0.0;
+  for (const std::uint32_t i : instances) sum += triangles_of(scene, i);
+  return sum;
+}
+
 /// The median of `value` over instances, each counting once for each of its triangles. Sorts them.
 template <class Value>
 float median_over_triangles(const Scene& scene, std::vector<std::uint32_t>& members,
                             const Value& value) {
   std::stable_sort(members.begin(), members.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return value(a) < value(b); });
-  double total = 0.0, sum = 0.0;
-  for (const std::uint32_t i : members) total += triangles_of(scene, i);
+  const double total = triangles_of(scene, members);
+  double sum = 0.0;
   for (const std::uint32_t i : members) {
     sum += triangles_of(scene, i);
     if (sum >= 0.5 * total) return value(i);
@@ -153,8 +159,7 @@ float distance_between(const Bounds& a, const Bounds& b) {
 /// wide gap.
 void drop_strays(const Scene& scene, std::span<const Bounds> boxes,
                  std::vector<std::uint32_t>& members) {
-  double total = 0.0;
-  for (const std::uint32_t i : members) total += triangles_of(scene, i);
+  const double total = triangles_of(scene, members);
   const glm::vec3 middle = find_middle(scene, boxes, members).position_ws;
   const Bounds point{middle, middle};
   std::stable_sort(members.begin(), members.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -264,6 +269,29 @@ Subject find_subject_in_light(const World& world, std::span<const Bounds> boxes,
 }
 
 }  // namespace
+
+std::optional<Subject> without_things_apart(const World& world, const Subject& subject) {
+  const std::vector<Bounds> boxes = instance_boxes(world);
+  Subject near = subject;
+  std::vector<std::uint32_t>& members = near.instances;
+  std::stable_sort(members.begin(), members.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return diagonal(boxes[a]) < diagonal(boxes[b]);
+  });
+  while (members.size() > 1) {
+    Bounds rest;
+    for (std::size_t i = 0; i + 1 < members.size(); ++i) rest.add(boxes[members[i]]);
+    const Bounds& largest = boxes[members.back()];
+    if (diagonal(largest) <= diagonal(rest) || distance_between(rest, largest) <= 0.0f) break;
+    members.pop_back();
+    near.bounds = rest;
+  }
+  const Scene& scene = world.scene();
+  const double least = (1.0 - kMaxStrayShare) * triangles_of(scene, subject.instances);
+  if (members.size() == subject.instances.size() || triangles_of(scene, members) < least) {
+    return std::nullopt;
+  }
+  return near;
+}
 
 Middle find_middle(const Scene& scene, std::span<const Bounds> boxes,
                    std::vector<std::uint32_t> instances) {

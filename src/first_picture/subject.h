@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,11 @@ Subject find_subject(const World& world);
 /// As find_subject(), but where a viewer stands among the strays, that of the strays: in a room of
 /// a few large walls, say, far from a statue of many triangles.
 Subject find_subject_near(const World& world, const glm::vec3& viewer_ws);
+
+/// The subject without things that are each larger than all of the rest and stand apart from it,
+/// such as a planet outside a ship; none where there are no such things, or the rest has fewer than
+/// half of the triangles.
+std::optional<Subject> without_things_apart(const World& world, const Subject& subject);
 
 /// Where most of some instances' triangles are.
 struct Middle {

@@ -32,6 +32,22 @@ TEST(FirstView, ShowsASmallThingInTheRoomThatDwarfsIt) {
   EXPECT_LT(hit.distance, 2.0f);
 }
 
+TEST(FirstView, StandsInAShipBesideAPlanet) {
+  Scene scene;
+  scene.materials = {test::lambert(glm::vec3(0.6f))};
+  test::add(scene, test::box_mesh({-1.5f, 0, -12}, {1.5f, 2.8f, 12}, true));
+  for (int i = 0; i < 8; ++i) {
+    const glm::vec3 at(-1.4f, 0.5f, -10.0f + 2.5f * static_cast<float>(i));
+    test::add(scene, test::box_mesh(at, at + glm::vec3(0.4f, 0.8f, 1.2f)));
+  }
+  ASSERT_TRUE(first_view(World(scene), {}).value().inside);
+  test::add(scene, test::box_mesh({-120, -20, -30}, {-60, 40, 30}));
+  EXPECT_TRUE(first_view(World(scene), {}).value().inside);
+  // The rest is no room
+  scene.instances.erase(scene.instances.begin());
+  EXPECT_FALSE(first_view(World(scene), {}).value().inside);
+}
+
 TEST(FirstView, TellsHowFarAwayIsWhatItShows) {
   for (const float size : {0.01f, 1.0f, 50.0f}) {
     const glm::vec3 low(3.0f, 1.0f, -2.0f);
