@@ -19,7 +19,7 @@ using testing::HasSubstr;
 // A triangle, a spot light and a camera; its mesh is named with a terminal escape.
 constexpr const char* kScene = R"({
   "asset": {"version": "2.0", "generator": "by \u001b[31mhand"},
-  "extensionsUsed": ["KHR_lights_punctual", "KHR_materials_iridescence"],
+  "extensionsUsed": ["KHR_lights_punctual", "KHR_materials_anisotropy"],
   "extensions": {"KHR_lights_punctual": {"lights": [
     {"type": "spot", "name": "lamp", "intensity": 5, "spot": {}}]}},
   "buffers": [{"byteLength": 36, "uri":
@@ -50,7 +50,7 @@ TEST_F(Info, SummarizesForPeople) {
   for (const char* part :
        {"scene.gltf", "KHR_lights_punctual", "2 (2 triangles)", "glow",
         "spot 5 5 5 W/sr, at 0 4 0 m", "2 emissive triangles", "front", "ior 1.33", "at 0 0 3 m",
-        "0 0 -2 to 1 1 0 m", "KHR_materials_iridescence"}) {
+        "0 0 -2 to 1 1 0 m", "KHR_materials_anisotropy"}) {
     EXPECT_THAT(outcome.output, HasSubstr(part));
   }
 }
