@@ -35,18 +35,18 @@ Json triangle_with(const Json& buffer) {
 class GltfFile : public testing::Test {
  protected:
   GltfFile() {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::create_directories(folder_ / "sub");
+    folder = std::filesystem::path(testing::TempDir()) /
+             testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::create_directories(folder / "sub");
   }
-  ~GltfFile() override { std::filesystem::remove_all(folder_); }
+  ~GltfFile() override { std::filesystem::remove_all(folder); }
 
   std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return (folder_ / name).string();
+    std::ofstream(folder / name, std::ios::binary) << text;
+    return (folder / name).string();
   }
 
-  std::filesystem::path folder_;
+  std::filesystem::path folder;
 };
 
 TEST_F(GltfFile, ReadsBuffersBesideAndAboveIt) {
@@ -68,7 +68,7 @@ TEST_F(GltfFile, BackslashesPartFoldersWhereNoFileIsNamedWithThem) {
   const std::string scene = write("below.gltf", below.dump());
   EXPECT_EQ(error_of(load_scene(scene)), "");
   EXPECT_THAT(files_of_gltf(scene),
-              testing::ElementsAre((folder_ / "sub" / "in folder.bin").string()));
+              testing::ElementsAre((folder / "sub" / "in folder.bin").string()));
   // A file of that very name is the one that is meant
   write("a\\b.bin", bytes);
   write("a/b.bin", "too short");
@@ -77,9 +77,9 @@ TEST_F(GltfFile, BackslashesPartFoldersWhereNoFileIsNamedWithThem) {
 }
 
 TEST_F(GltfFile, MissingFilesAreNamed) {
-  EXPECT_THAT(error_of(load_scene((folder_ / "none.gltf").string())),
+  EXPECT_THAT(error_of(load_scene((folder / "none.gltf").string())),
               HasSubstr("none.gltf: no such file"));
-  EXPECT_THAT(error_of(load_scene(folder_.string())), HasSubstr("is a directory"));
+  EXPECT_THAT(error_of(load_scene(folder.string())), HasSubstr("is a directory"));
   const Json root = triangle_with({{"byteLength", 36}, {"uri", "none.bin"}});
   const std::string error = error_of(load_scene(write("a.gltf", root.dump())));
   EXPECT_THAT(error, HasSubstr("a.gltf: buffers[0]"));
@@ -161,7 +161,7 @@ TEST(GltfJson, GarbageIsAnError) {
   EXPECT_NE(error_of(load_text("{")), "");
   EXPECT_NE(error_of(load_text("null")), "");
   EXPECT_NE(error_of(load_text("[]")), "");
-  EXPECT_NE(error_of(load_text("\xff\xfe\x00")), "");
+  EXPECT_NE(error_of(load_text({'\xff', '\xfe', '\0'})), "");
   EXPECT_THAT(error_of(load_text("{\n\n \"a\": 1,,}")), HasSubstr("at line 3, column 9"));
   EXPECT_THAT(error_of(load_text("x")), HasSubstr("at line 1, column 1"));
   EXPECT_THAT(error_of(load_text("{}")), HasSubstr("asset: is required but missing"));
